@@ -159,6 +159,16 @@ impl Dialect {
         self != Dialect::Shadertoy
     }
 
+    /// Returns the latest version of GLSL whose built-in functions exist besides those of GLSL ES 3.00; 0 if there are
+    /// no others.
+    pub(crate) fn builtins_until(self) -> u16 {
+        match self {
+            Dialect::Shadertoy => 0,
+            Dialect::Ghostty => 430,
+            Dialect::Any(_) => 460,
+        }
+    }
+
     /// Returns whether `#version` and `#extension` may come after the text that the host prepends, and are ignored
     /// there. GLSL ES 1.00 requires extensions first (section 3.4), and browsers warn otherwise.
     pub(crate) fn ignores_late_directives(self) -> bool {

@@ -110,8 +110,8 @@ impl Finder<'_> {
             ExprKind::Call { func, args } => self.call(id, func, args),
             ExprKind::Builtin { builtin, args } => {
                 let mut all = self.take_all(id);
-                if builtin.writes.is_some() {
-                    all.writes.extend(self.module[args].last().and_then(|&place| self.root(place)));
+                for &at in builtin.writes {
+                    all.writes.extend(self.root(self.module[args][at]));
                 }
                 all
             }

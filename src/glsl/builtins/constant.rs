@@ -32,11 +32,11 @@ pub struct Arg<'w> {
 }
 
 impl Arg<'_> {
-    fn bits(&self, i: usize) -> u32 {
+    pub(super) fn bits(&self, i: usize) -> u32 {
         self.words[if self.words.len() == 1 { 0 } else { i }]
     }
 
-    fn float(&self, i: usize) -> f32 {
+    pub(super) fn float(&self, i: usize) -> f32 {
         f32::from_bits(self.bits(i))
     }
 
@@ -84,12 +84,12 @@ impl Row {
 }
 
 /// Sets each component of the result.
-fn fill(out: &mut [u32], f: impl Fn(usize) -> u32) {
+pub(super) fn fill(out: &mut [u32], f: impl Fn(usize) -> u32) {
     out.iter_mut().enumerate().for_each(|(i, word)| *word = f(i));
 }
 
 /// As [`fill`], with floats.
-fn fill_floats(out: &mut [u32], f: impl Fn(usize) -> f32) {
+pub(super) fn fill_floats(out: &mut [u32], f: impl Fn(usize) -> f32) {
     fill(out, |i| f(i).to_bits());
 }
 

@@ -4,7 +4,9 @@
 //! becomes, its value on constants, where it is undefined, and its description for the editor. The checker, lowering,
 //! the audit and the editor services read the row; none of them knows a function by its name.
 
+pub(crate) mod bits;
 mod constant;
+mod integers;
 mod numbers;
 mod overloads;
 mod row;
@@ -13,7 +15,7 @@ mod uniforms;
 mod variables;
 mod vectors;
 
-use super::ast::Symbol;
+use super::{ast::Symbol, source::Dialect};
 use std::{fmt, ops::Deref};
 
 pub use constant::Arg;
@@ -22,9 +24,9 @@ pub use row::{Form, Lod, Operation, Row};
 pub use uniforms::Uniform;
 pub use variables::BuiltinVar;
 
-const FAMILIES: [&[Row]; 3] = [numbers::ROWS, vectors::ROWS, textures::ROWS];
+const FAMILIES: [&[Row]; 4] = [numbers::ROWS, vectors::ROWS, textures::ROWS, integers::ROWS];
 
-const COUNT: usize = FAMILIES[0].len() + FAMILIES[1].len() + FAMILIES[2].len();
+const COUNT: usize = FAMILIES[0].len() + FAMILIES[1].len() + FAMILIES[2].len() + FAMILIES[3].len();
 
 /// The rows, by [`Builtin`].
 static TABLE: [&Row; COUNT] = {
@@ -64,6 +66,16 @@ impl Builtin {
     #[inline]
     pub fn from_symbol(symbol: Symbol) -> Option<Self> {
         ((symbol.0 as usize) < COUNT).then_some(Builtin(symbol.0 as u8))
+    }
+
+    /// Returns the function that a symbol names in every text of a dialect.
+    pub fn of_dialect(symbol: Symbol, dialect: Dialect) -> Option<Self> {
+        Self::from_symbol(symbol).filter(|builtin| !builtin.is_of_image && builtin.exists_in(dialect))
+    }
+
+    /// Returns whether a dialect's version of GLSL has it.
+    pub fn exists_in(self, dialect: Dialect) -> bool {
+        self.since <= dialect.builtins_until()
     }
 
     /// The inverse of `from_symbol`.

@@ -3,6 +3,7 @@
 use std::f32::consts::FRAC_PI_2;
 
 use super::{
+    bits,
     constant::{
         self,
         Constant::{Each, Each2, Each3, Whole},
@@ -48,7 +49,7 @@ pub(super) const ROWS: &[Row] = &[
                past 1.", ..ROW },
     Row { name: "atan", params: "y, x", overloads: &[sig(F, &[F, F]), sig(F, &[F])], operation: Atan,
         constant: Whole(constant::angle),
-        undefined_for: &[gap("the angle of (0, 0) is undefined (8.1)", 0..2, Component(|[y, x, _]| y == 0.0 && x == 0.0))],
+        undefined_for: &[gap("the angle of (0, 0) is undefined (8.1)", 0..2, Component(|[y, x, ..]| y == 0.0 && x == 0.0))],
         text: "Angle in radians. `atan(y, x)`: of the point (x, y), -π to π, in the right quadrant; undefined where \
                both are 0. `atan(y_over_x)`: -π/2 to π/2.", ..ROW },
     Row { name: "sinh", params: "x", overloads: FLOAT, operation: Function(Math::Sinh),
@@ -75,7 +76,7 @@ pub(super) const ROWS: &[Row] = &[
         undefined_for: &[
             gap("pow of a negative base is undefined (8.2)", 0..2, Component(|[x, ..]| x < 0.0)),
             gap("pow of 0 is undefined unless the exponent is above 0 (8.2)", 0..2,
-                Component(|[x, y, _]| x == 0.0 && y <= 0.0)),
+                Component(|[x, y, ..]| x == 0.0 && y <= 0.0)),
         ],
         text: "x to the power of y. Undefined where x < 0, and where x = 0 and y ≤ 0. For small whole powers, \
                multiply.", ..ROW },
@@ -118,7 +119,7 @@ pub(super) const ROWS: &[Row] = &[
         constant: Each2(|x, y| x - y * (x / y).floor()),
         text: "x - y · floor(x / y): has the sign of y, so patterns repeat evenly through zero. Undefined where y = \
                0.", ..ROW },
-    Row { name: "modf", params: "x, i", overloads: FLOATS, operation: Modf, writes: Some(1),
+    Row { name: "modf", params: "x, i", overloads: FLOATS, operation: Modf, writes: &[1],
         text: "The fraction of x, with x's sign; the whole part is written to i, as a float.", ..ROW },
     Row { name: "min", params: "x, y",
         overloads: &[
@@ -139,7 +140,7 @@ pub(super) const ROWS: &[Row] = &[
         ],
         operation: Function(Math::Clamp), constant: Whole(constant::clamped),
         undefined_for: &[
-            gap("clamp is undefined where minVal is above maxVal (8.3)", 1..3, Component(|[_, low, high]| low > high)),
+            gap("clamp is undefined where minVal is above maxVal (8.3)", 1..3, Component(|[_, low, high, _]| low > high)),
         ],
         text: "min(max(x, minVal), maxVal): x clamped to the range. Undefined where minVal > maxVal.", ..ROW },
     Row { name: "mix", params: "x, y, a", overloads: &[sig(F, &[F, F, F]), sig(F, &[F, F, F1]), sig(F, &[F, F, B])],
@@ -152,7 +153,7 @@ pub(super) const ROWS: &[Row] = &[
         operation: Smoothstep, constant: Each3(constant::smooth_step),
         undefined_for: &[
             gap("smoothstep is undefined unless its first edge is below the second (8.3)", 0..2,
-                Component(|[low, high, _]| low >= high)),
+                Component(|[low, high, ..]| low >= high)),
         ],
         text: "0 up to edge0, 1 from edge1, between them t · t · (3 - 2 · t). Undefined where edge0 ≥ edge1.", ..ROW },
     Row { name: "isnan", params: "x", overloads: &[sig(B, &[F])], operation: Exponent(Binary::Greater),
@@ -173,4 +174,12 @@ pub(super) const ROWS: &[Row] = &[
     Row { name: "uintBitsToFloat", params: "value", overloads: &[sig(F, &[U])], operation: Bitcast(Scalar::Float),
         constant: Whole(|args, out| out.copy_from_slice(args[0].words)),
         text: "The float that has these 32 bits. Bits of a NaN need not survive.", ..ROW },
+    Row { name: "fma", params: "a, b, c", overloads: &[sig(F, &[F, F, F])], operation: Fma,
+        constant: Each3(|a, b, c| a * b + c), since: 400, text: "a · b + c. The product may be rounded first.", ..ROW },
+    Row { name: "frexp", params: "x, exp", overloads: &[sig(F, &[F, I])], operation: Frexp, writes: &[1], since: 400,
+        text: "The significand of x, from 0.5 to below 1, with x's sign; exp is set so that x = significand · 2 to the \
+               power of exp. Both are 0 for 0. Undefined for infinity and NaN.", ..ROW },
+    Row { name: "ldexp", params: "x, exp", overloads: &[sig(F, &[F, I])], operation: Ldexp,
+        constant: Whole(bits::scaled), since: 400,
+        text: "x · 2 to the power of exp, the inverse of `frexp`.", ..ROW },
 ];

@@ -7,7 +7,7 @@ use super::{
     overloads::Overload,
 };
 use crate::{
-    ir::{Axis, Binary, Math},
+    ir::{Axis, Binary, Detail, Math},
     types::Scalar,
 };
 
@@ -21,12 +21,14 @@ pub struct Row {
     pub constant: Constant,
     /// The arguments for which the result is undefined.
     pub undefined_for: &'static [UndefinedDomain],
-    /// The argument that is an `out` place.
-    pub writes: Option<usize>,
+    /// The arguments that are `out` places.
+    pub writes: &'static [usize],
     /// Section 6.1 forbids redeclaring a built-in, but ANGLE, and therefore Shadertoy, accepts overloads of these.
     pub may_be_overloaded: bool,
     /// Shadertoy defines it, only in the text of Image passes.
     pub is_of_image: bool,
+    /// The version of GLSL that has it, if GLSL ES 3.00 does not have it; otherwise 0.
+    pub since: u16,
     /// Names of the parameters, as shown to users.
     pub params: &'static str,
     /// Explanation for users: what it returns, where it is undefined.
@@ -40,9 +42,10 @@ pub(super) const ROW: Row = Row {
     operation: Operation::Assert,
     constant: Constant::None,
     undefined_for: &[],
-    writes: None,
+    writes: &[],
     may_be_overloaded: false,
     is_of_image: false,
+    since: 0,
     params: "",
     text: "",
 };
@@ -54,7 +57,7 @@ pub enum Operation {
     Function(Math),
     Compare(Binary),
     Bitcast(Scalar),
-    Derivative(Axis),
+    Derivative(Axis, Detail),
     Any,
     All,
     Not,
@@ -64,6 +67,16 @@ pub enum Operation {
     Atan,
     Modulo,
     Modf,
+    Fma,
+    Frexp,
+    Ldexp,
+    /// A function of an int's or a uint's bits whose result is an int.
+    BitPosition(Math),
+    BitfieldExtract,
+    BitfieldInsert,
+    AddCarry,
+    SubtractBorrow,
+    MultiplyExtended,
     Mix,
     Step,
     Smoothstep,
@@ -83,6 +96,11 @@ pub enum Operation {
         offset: Option<usize>,
     },
     Sample(Form),
+    Gather {
+        offset: Option<usize>,
+    },
+    QueryLevels,
+    QueryLod,
     Assert,
 }
 
@@ -119,7 +137,7 @@ pub struct UndefinedDomain {
 #[derive(Debug)]
 pub(super) enum Test {
     /// On the numbers of one component; NaN for missing arguments.
-    Component(fn([f64; 3]) -> bool),
+    Component(fn([f64; 4]) -> bool),
     /// On all numbers of the first argument.
     Vector(fn(&[f32]) -> bool),
 }
@@ -140,20 +158,31 @@ impl Row {
 
     /// Returns whether it reads a texture (section 8.8).
     pub fn is_texture(&self) -> bool {
-        matches!(self.operation, Operation::TextureSize | Operation::Fetch { .. } | Operation::Sample(_))
+        use Operation::*;
+        matches!(self.operation, TextureSize | Fetch { .. } | Sample(_) | Gather { .. } | QueryLevels | QueryLod)
     }
 
     /// Returns the argument that is the constant offset of a texture function.
     pub fn offset_argument(&self) -> Option<usize> {
         match self.operation {
-            Operation::Fetch { offset } | Operation::Sample(Form { offset, .. }) => offset,
+            Operation::Fetch { offset } | Operation::Gather { offset } | Operation::Sample(Form { offset, .. }) => {
+                offset
+            }
             _ => None,
         }
     }
 
+    /// Returns the last of `count` arguments if it is the component that is gathered, or, as a float, the reference value
+    /// of a comparison.
+    pub fn component_argument(&self, count: usize) -> Option<usize> {
+        let Operation::Gather { offset } = self.operation else { return None };
+        let at = 2 + usize::from(offset.is_some());
+        (count > at).then_some(at)
+    }
+
     /// Returns whether a call has an effect besides its value.
     pub fn has_effect(&self) -> bool {
-        self.writes.is_some() || self.operation == Operation::Assert
+        !self.writes.is_empty() || self.operation == Operation::Assert
     }
 
     /// Returns whether it reinterprets bits as floats, which may be any value.
@@ -176,7 +205,7 @@ impl UndefinedDomain {
     pub(super) fn holds(&self, args: &[Arg<'_>], component: usize) -> bool {
         match self.test {
             Test::Component(test) => {
-                let mut numbers = [f64::NAN; 3];
+                let mut numbers = [f64::NAN; 4];
                 numbers.iter_mut().zip(args).for_each(|(number, arg)| *number = arg.number(component));
                 test(numbers)
             }

@@ -1,7 +1,7 @@
 //! The table itself: every row is complete, and all its readers need the row alone.
 
 use super::{constant::Constant, *};
-use crate::{PassSource, compile, services::Analysis, source::PassKind};
+use crate::{Dialect, PassSource, Version, compile, services::Analysis, source::PassKind};
 use eddy_diag::{Diagnostic, SourceId};
 use std::collections::BTreeSet;
 
@@ -16,12 +16,14 @@ fn type_text(overload: &Overload, pattern: Pattern) -> String {
 /// Returns a plain shader that calls an overload, with constant or non-constant arguments.
 fn shader(builtin: Builtin, overload: &Overload, is_constant: bool) -> String {
     let result = type_text(overload, overload.result);
+    let count = overload.params.len();
+    let is_constant_argument = |i| [builtin.offset_argument(), builtin.component_argument(count)].contains(&Some(i));
     let (mut uniforms, mut locals, mut args) = (String::new(), String::new(), Vec::new());
     for (i, &pattern) in overload.params.iter().enumerate() {
         let ty = type_text(overload, pattern);
         if matches!(pattern, Pattern::Sampler(..)) {
             uniforms.push_str(&format!("uniform {ty} a{i};\n"));
-        } else if is_constant || builtin.offset_argument() == Some(i) {
+        } else if is_constant || is_constant_argument(i) {
             locals.push_str(&format!("    const {ty} a{i} = {ty}({});\n", if ty == "uint" { "1u" } else { "1" }));
         } else {
             locals.push_str(&format!("    {ty} a{i};\n"));
@@ -36,6 +38,14 @@ fn shader(builtin: Builtin, overload: &Overload, is_constant: bool) -> String {
          precision highp sampler2DShadow;\nprecision highp samplerCubeShadow;\nprecision highp sampler2DArrayShadow;\n\
          {uniforms}out vec4 c;\nvoid main() {{\n{locals}    {call};\n    c = vec4(1);\n}}\n"
     )
+}
+
+/// Returns a dialect that has a function.
+fn dialect(builtin: Builtin) -> Dialect {
+    match builtin.since {
+        0 => Dialect::Shadertoy,
+        number => Dialect::Any(Version { number, is_es: false }),
+    }
 }
 
 #[test]
@@ -65,7 +75,7 @@ fn compiler_and_editor_need_the_row_alone() {
         let overloads: Vec<&Overload> = builtin.overloads.iter().filter(|o| !o.is_one_dimensional()).collect();
         for overload in &overloads {
             let text = shader(builtin, overload, false);
-            let source = PassSource::fragment(&text);
+            let source = PassSource { dialect: dialect(builtin), ..PassSource::fragment(&text) };
             // WebGPU compares depths only in the first level.
             let has_none = |found: &Diagnostic| found.message.contains("WebGPU");
             if let Err(found) = compile(&source) {
@@ -90,7 +100,8 @@ fn functions_of_constants_are_constants() {
     for builtin in Builtin::all().filter(|builtin| !matches!(builtin.constant, Constant::None)) {
         for overload in builtin.overloads {
             let text = shader(builtin, overload, true);
-            assert!(compile(&PassSource::fragment(&text)).is_ok(), "{text}");
+            let source = PassSource { dialect: dialect(builtin), ..PassSource::fragment(&text) };
+            assert!(compile(&source).is_ok(), "{text}");
         }
     }
 }

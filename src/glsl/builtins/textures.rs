@@ -5,7 +5,7 @@ use super::{
     overloads::{patterns::*, sig},
     row::{Form, Lod, Operation::*, ROW, Row},
 };
-use crate::ir::Axis;
+use crate::ir::{Axis, Detail};
 
 #[rustfmt::skip]
 pub(super) const ROWS: &[Row] = &[
@@ -120,15 +120,58 @@ pub(super) const ROWS: &[Row] = &[
         operation: Sample(Form { is_projected: true, lod: Lod::Gradient, offset: Some(4) }),
         text: "As `textureProjGrad`, moved by a constant number of texels, -8 to 7.", ..ROW },
     // 8.9 Derivatives.
-    Row { name: "dFdx", params: "p", overloads: FLOAT, operation: Derivative(Axis::X), constant: Each(|_| 0.0),
+    Row { name: "dFdx", params: "p", overloads: FLOAT, operation: Derivative(Axis::X, Detail::Any), constant: Each(|_| 0.0),
         text: "How much p changes from this pixel to its neighbour on the right, by differences within 2x2 pixels. \
                Undefined in branches and loops that not all four pixels share.", ..ROW },
-    Row { name: "dFdy", params: "p", overloads: FLOAT, operation: Derivative(Axis::Y), constant: Each(|_| 0.0),
+    Row { name: "dFdy", params: "p", overloads: FLOAT, operation: Derivative(Axis::Y, Detail::Any), constant: Each(|_| 0.0),
         text: "How much p changes from this pixel to its neighbour above, by differences within 2x2 pixels. \
                Undefined in branches and loops that not all four pixels share.", ..ROW },
-    Row { name: "fwidth", params: "p", overloads: FLOAT, operation: Derivative(Axis::Width), constant: Each(|_| 0.0),
+    Row { name: "fwidth", params: "p", overloads: FLOAT, operation: Derivative(Axis::Width, Detail::Any), constant: Each(|_| 0.0),
         text: "abs(dFdx(p)) + abs(dFdy(p)): about how much p changes over one pixel; the width of a smooth edge.",
         ..ROW },
+    // 8.9 of GLSL 4.60: queries and gathering, which GLSL ES 3.00 does not have.
+    Row { name: "textureGather", params: "sampler, P, comp",
+        overloads: &[
+            sig(G4, &[S2, F2]), sig(G4, &[S2, F2, I1]), sig(G4, &[SA, F3]), sig(G4, &[SA, F3, I1]), sig(G4, &[SC, F3]),
+            sig(G4, &[SC, F3, I1]), sig(F4, &[D2, F2, F1]), sig(F4, &[DA, F3, F1]), sig(F4, &[DC, F3, F1]),
+        ],
+        operation: Gather { offset: None }, since: 400,
+        text: "Component comp (0 to 3, a constant; 0 without it) of the four texels that a filtered read at P mixes, not \
+               filtered: those at the upper left, upper right, lower right and lower left. Of a shadow sampler, the \
+               results of comparing them with the third argument.", ..ROW },
+    Row { name: "textureGatherOffset", params: "sampler, P, offset, comp",
+        overloads: &[
+            sig(G4, &[S2, F2, I2]), sig(G4, &[S2, F2, I2, I1]), sig(G4, &[SA, F3, I2]), sig(G4, &[SA, F3, I2, I1]),
+        ],
+        operation: Gather { offset: Some(2) }, since: 400,
+        text: "As `textureGather`, moved by a constant number of texels, -8 to 7.", ..ROW },
+    Row { name: "textureQueryLevels", params: "sampler",
+        overloads: &[
+            sig(I1, &[S2]), sig(I1, &[S3]), sig(I1, &[SC]), sig(I1, &[SA]), sig(I1, &[D2]), sig(I1, &[DC]),
+            sig(I1, &[DA]), sig(I1, &[S1]),
+        ],
+        operation: QueryLevels, since: 430, text: "The number of mip levels of a texture.", ..ROW },
+    Row { name: "textureQueryLod", params: "sampler, P",
+        overloads: &[
+            sig(F2, &[S2, F2]), sig(F2, &[S3, F3]), sig(F2, &[SC, F3]), sig(F2, &[SA, F2]), sig(F2, &[D2, F2]),
+            sig(F2, &[DC, F3]), sig(F2, &[DA, F2]), sig(F2, &[S1, F1]),
+        ],
+        operation: QueryLod, since: 400,
+        text: "x: the mip level that `texture` reads at P. y: the level that follows from how fast P changes, which the \
+               texture may not have. Undefined in branches that neighbours do not share.", ..ROW },
+    // 8.14.1 of GLSL 4.60: derivatives of known pixels.
+    Row { name: "dFdxFine", params: "p", overloads: FLOAT, operation: Derivative(Axis::X, Detail::Fine),
+        constant: Each(|_| 0.0), since: 450, text: "As `dFdx`, from this pixel's own row and column.", ..ROW },
+    Row { name: "dFdxCoarse", params: "p", overloads: FLOAT, operation: Derivative(Axis::X, Detail::Coarse),
+        constant: Each(|_| 0.0), since: 450, text: "As `dFdx`, equal for all four pixels of 2x2.", ..ROW },
+    Row { name: "dFdyFine", params: "p", overloads: FLOAT, operation: Derivative(Axis::Y, Detail::Fine),
+        constant: Each(|_| 0.0), since: 450, text: "As `dFdy`, from this pixel's own row and column.", ..ROW },
+    Row { name: "dFdyCoarse", params: "p", overloads: FLOAT, operation: Derivative(Axis::Y, Detail::Coarse),
+        constant: Each(|_| 0.0), since: 450, text: "As `dFdy`, equal for all four pixels of 2x2.", ..ROW },
+    Row { name: "fwidthFine", params: "p", overloads: FLOAT, operation: Derivative(Axis::Width, Detail::Fine),
+        constant: Each(|_| 0.0), since: 450, text: "As `fwidth`, from this pixel's own row and column.", ..ROW },
+    Row { name: "fwidthCoarse", params: "p", overloads: FLOAT, operation: Derivative(Axis::Width, Detail::Coarse),
+        constant: Each(|_| 0.0), since: 450, text: "As `fwidth`, equal for all four pixels of 2x2.", ..ROW },
     // Shadertoy's own, in Image passes: `st_assert(bool)` and `st_assert(bool, int)`, void.
     Row { name: "st_assert", params: "condition, value", overloads: &[sig(VOID, &[BOOL]), sig(VOID, &[BOOL, I1])],
         operation: Assert, is_of_image: true,

@@ -1,6 +1,7 @@
 //! Functions of vectors and matrices: sections 8.4 to 8.7.
 
 use super::{
+    bits::{self, pack_bytes, unpack_bytes},
     constant::{
         self,
         Constant::{Each2, Whole},
@@ -35,6 +36,20 @@ pub(super) const ROWS: &[Row] = &[
     Row { name: "unpackHalf2x16", params: "p", overloads: &[sig(F2, &[U1])], operation: Function(Math::Unpack2x16float),
         constant: Whole(|args, out| unpack(args, out, constant::half_value)),
         text: "The two floats that `packHalf2x16` stored; x from the low bits.", ..ROW },
+    Row { name: "packSnorm4x8", params: "v", overloads: &[sig(U1, &[F4])], operation: Function(Math::Pack4x8snorm),
+        constant: Whole(|args, out| pack_bytes(args, out, bits::snorm_byte)), since: 400,
+        text: "Four floats, clamped to -1..1, as 8-bit integers in one uint: round(v · 127). v.x takes the low bits.",
+        ..ROW },
+    Row { name: "unpackSnorm4x8", params: "p", overloads: &[sig(F4, &[U1])], operation: Function(Math::Unpack4x8snorm),
+        constant: Whole(|args, out| unpack_bytes(args, out, bits::snorm_of_byte)), since: 400,
+        text: "The four numbers in -1..1 that `packSnorm4x8` stored; x from the low bits.", ..ROW },
+    Row { name: "packUnorm4x8", params: "v", overloads: &[sig(U1, &[F4])], operation: Function(Math::Pack4x8unorm),
+        constant: Whole(|args, out| pack_bytes(args, out, bits::unorm_byte)), since: 400,
+        text: "Four floats, clamped to 0..1, as 8-bit integers in one uint: round(v · 255). v.x takes the low bits.",
+        ..ROW },
+    Row { name: "unpackUnorm4x8", params: "p", overloads: &[sig(F4, &[U1])], operation: Function(Math::Unpack4x8unorm),
+        constant: Whole(|args, out| unpack_bytes(args, out, bits::unorm_of_byte)), since: 400,
+        text: "The four numbers in 0..1 that `packUnorm4x8` stored; x from the low bits.", ..ROW },
     // 8.5 Geometry; all but `cross` take floats as vectors of one component.
     Row { name: "length", params: "x", overloads: &[sig(F1, &[F])], operation: Length,
         constant: Whole(constant::vector_length),

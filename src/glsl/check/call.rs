@@ -90,7 +90,7 @@ impl Checker<'_> {
         }
         // A built-in overload that takes the arguments unconverted has priority over user functions that need
         // conversions.
-        let builtin = Builtin::from_symbol(self.module[first].name.symbol).filter(|builtin| !builtin.is_of_image);
+        let builtin = Builtin::of_dialect(self.module[first].name.symbol, self.settings.dialect);
         let is_exact = builtin.is_some_and(|builtin| {
             let given: Vec<TypeId> = ast[args].iter().map(|&arg| self.ty(self.lowered_expr(arg))).collect();
             self.builtin_result(builtin, &given).is_some()
@@ -273,7 +273,7 @@ impl Checker<'_> {
 
     fn builtin_call(&mut self, builtin: Builtin, args: List<ast::ExprId>, loc: Loc) -> ExprId {
         self.record_use(loc.first, DeclRef::Builtin(builtin));
-        let is_derivative = matches!(builtin.operation, Operation::Derivative(_));
+        let is_derivative = matches!(builtin.operation, Operation::Derivative(..) | Operation::QueryLod);
         if is_derivative && self.env.is_vertex() && !self.is_shared(loc) {
             self.error(
                 loc,
@@ -343,13 +343,18 @@ impl Checker<'_> {
         if builtin.has_effect() {
             flags |= ExprFlags::EFFECTS;
         }
-        if let Some(at) = builtin.writes
-            && !self.place(self.expr_stack[base + at], "passed as `out`")
-        {
-            return self.error_expr_of(result, loc);
+        for &at in builtin.writes {
+            if !self.place(self.expr_stack[base + at], "passed as `out`") {
+                return self.error_expr_of(result, loc);
+            }
         }
         if let Some(at) = builtin.offset_argument()
             && !self.check_offset(builtin, self.expr_stack[base + at])
+        {
+            return self.error_expr_of(result, loc);
+        }
+        if let Some(at) = builtin.component_argument(args.len())
+            && !self.check_component(builtin, self.expr_stack[base + at])
         {
             return self.error_expr_of(result, loc);
         }
@@ -363,7 +368,7 @@ impl Checker<'_> {
     fn fold_builtin(&mut self, builtin: Builtin, result: TypeId, base: usize, loc: Loc) -> Option<ExprId> {
         let types = &self.module.types;
         let given = &self.expr_stack[base..];
-        let mut args = [Arg { words: &[], scalar: Scalar::Float, columns: 1 }; 3];
+        let mut args = [Arg { words: &[], scalar: Scalar::Float, columns: 1 }; 4];
         for (arg, &id) in args.get_mut(..given.len())?.iter_mut().zip(given) {
             let ty = self.module[id].ty;
             let columns = if let Type::Matrix { columns, .. } = types.get(ty) { columns.into() } else { 1 };
@@ -408,6 +413,27 @@ impl Checker<'_> {
             return false;
         }
         true
+    }
+
+    /// Checks that the component that is gathered is a constant from 0 to 3 (GLSL 4.60, section 8.9.4). A float is the
+    /// reference value of a comparison.
+    fn check_component(&mut self, builtin: Builtin, component: ExprId) -> bool {
+        if self.ty(component) != TypeId::INT {
+            return true;
+        }
+        let loc = self.loc(component);
+        let name = builtin.name;
+        match self.words(component).map(|words| words[0] as i32) {
+            Some(0..=3) => return true,
+            Some(other) => {
+                self.error(loc, format!("`{name}` has no component {other}: 0 to 3 are x, y, z and w"));
+            }
+            None if self.is_broken() => {}
+            None => {
+                self.error(loc, format!("the component of `{name}` must be a constant expression"));
+            }
+        }
+        false
     }
 
     #[cold]
@@ -530,16 +556,21 @@ impl Checker<'_> {
     }
 
     /// Returns the types of the arguments after implicit conversions (GLSL 4.30, section 6.1) for which a built-in has
-    /// an overload, and its result: as few arguments as possible are converted, ints to floats.
+    /// an overload, and its result: as few arguments as possible are converted, ints to uints or else to floats. Those
+    /// that the built-in writes are not converted.
     fn converting_builtin(&self, builtin: Builtin, given: &[TypeId]) -> Option<(Vec<TypeId>, TypeId)> {
-        let float = |ty: TypeId| self.vector_shape(ty).map(|(_, n)| TypeId::vector(Scalar::Float, n));
-        let can = |i: usize| float(given[i]).is_some_and(|want| want != given[i] && self.converts_to(given[i], want));
+        let of = |ty: TypeId, to| self.vector_shape(ty).map(|(_, n)| TypeId::vector(to, n));
+        let can = |i: usize, to| {
+            of(given[i], to).is_some_and(|want| want != given[i] && self.converts_to(given[i], want))
+                && !builtin.writes.contains(&i)
+        };
         // Each set has a bit for each argument that is converted.
         let mut sets: Vec<u32> = (1..1u32 << given.len()).collect();
-        sets.retain(|set| (0..given.len()).all(|i| set & 1 << i == 0 || can(i)));
         sets.sort_by_key(|set| set.count_ones());
-        sets.into_iter().find_map(|set| {
-            let ty = |(i, &ty): (usize, &TypeId)| if set & 1 << i == 0 { Some(ty) } else { float(ty) };
+        let targets = sets.into_iter().flat_map(|set| [(set, Scalar::Uint), (set, Scalar::Float)]);
+        let mut possible = targets.filter(|&(set, to)| (0..given.len()).all(|i| set & 1 << i == 0 || can(i, to)));
+        possible.find_map(|(set, to)| {
+            let ty = |(i, &ty): (usize, &TypeId)| if set & 1 << i == 0 { Some(ty) } else { of(ty, to) };
             let types: Vec<TypeId> = given.iter().enumerate().map(ty).collect::<Option<_>>()?;
             let result = self.builtin_result(builtin, &types)?;
             Some((types, result))

@@ -181,7 +181,7 @@ pub fn taken(name: &str) -> Option<&'static str> {
         Some("Shadertoy's header has a uniform of this name")
     } else if entries.contains(&name) {
         Some("it is the name of an entry point")
-    } else if Builtin::all().any(|builtin| builtin.name == name) {
+    } else if Builtin::all().any(|builtin| builtin.name == name && builtin.since == 0) {
         Some("GLSL has a function of this name")
     } else {
         keyword(name)

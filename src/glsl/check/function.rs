@@ -101,7 +101,7 @@ impl Checker<'_> {
         let name = decl.name;
         let text = self.name(name.symbol);
         let sign = FunctionSign { symbol: name.symbol, token: name.token, result, params: &params };
-        let builtin = Builtin::from_symbol(name.symbol).filter(|builtin| !builtin.is_of_image);
+        let builtin = Builtin::of_dialect(name.symbol, self.settings.dialect);
         let replaces = self.settings.dialect.replaces_builtins();
         let func = if builtin.is_some_and(|builtin| !builtin.may_be_overloaded) && !replaces {
             self.error(name, format!("`{text}` is a built-in function and cannot be declared again"));

@@ -17,7 +17,7 @@ impl Checker<'_> {
     /// Declares the names in scope before the first line of every text, for any kind of pass: those from the symbol
     /// `from` on, because earlier ones already occurred in texts that were checked.
     pub(super) fn declare_language(&mut self, from: Symbol) {
-        let builtins = Builtin::all().filter(|builtin| !builtin.is_of_image);
+        let builtins = Builtin::all().filter(|builtin| !builtin.is_of_image && builtin.since == 0);
         let builtins = builtins.map(|builtin| (builtin.symbol(), Binding::Builtin(builtin)));
         let variables = VARIABLES.into_iter().filter(|&(_, var)| self.env.has_variable(var));
         let named = variables
@@ -42,6 +42,12 @@ impl Checker<'_> {
         let is_image = self.env == Env::Pass(PassKind::Image) && dialect.has_extras();
         if is_image {
             for builtin in Builtin::all().filter(|builtin| builtin.is_of_image) {
+                self.scopes.define(builtin.symbol(), Binding::Builtin(builtin), scope::LANGUAGE);
+            }
+        }
+        for builtin in Builtin::all().filter(|builtin| builtin.since > 0 && builtin.exists_in(dialect)) {
+            // Common may have defined the name.
+            if self.scopes.get(builtin.symbol()) == Binding::None {
                 self.scopes.define(builtin.symbol(), Binding::Builtin(builtin), scope::LANGUAGE);
             }
         }

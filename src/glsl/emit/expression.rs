@@ -4,7 +4,7 @@ use naga::{Expression, Handle, ImageQuery, SampleLevel, ScalarKind};
 
 use super::{
     function::Builder,
-    operators::{binary, math, pattern, unary},
+    operators::{XYZW, binary, math, pattern, unary},
     types,
 };
 use crate::{
@@ -53,13 +53,17 @@ impl Builder<'_, '_> {
             }
             Op::All(argument) => Expression::Relational { fun: naga::RelationalFunction::All, argument: of(argument) },
             Op::Any(argument) => Expression::Relational { fun: naga::RelationalFunction::Any, argument: of(argument) },
-            Op::Derivative { axis, value } => Expression::Derivative {
+            Op::Derivative { axis, detail, value } => Expression::Derivative {
                 axis: match axis {
                     ir::Axis::X => naga::DerivativeAxis::X,
                     ir::Axis::Y => naga::DerivativeAxis::Y,
                     ir::Axis::Width => naga::DerivativeAxis::Width,
                 },
-                ctrl: naga::DerivativeControl::None,
+                ctrl: match detail {
+                    ir::Detail::Any => naga::DerivativeControl::None,
+                    ir::Detail::Coarse => naga::DerivativeControl::Coarse,
+                    ir::Detail::Fine => naga::DerivativeControl::Fine,
+                },
                 expr: of(value),
             },
             Op::Sample { channel, coordinate, level, offset } => {
@@ -85,6 +89,24 @@ impl Builder<'_, '_> {
                     array_index: at.array_index,
                     offset,
                     level,
+                    depth_ref: at.depth_ref,
+                    clamp_to_edge: false,
+                }
+            }
+            Op::Gather { channel, component, coordinate, offset } => {
+                let (coordinate, offset) = (of(coordinate), offset.map(&mut of));
+                let (dim, shadow) = self.texture_shape(channel);
+                let at = self.coordinate(coordinate, dim, shadow);
+                let (image, sampler) = (self.cx.texture(channel), self.cx.sampler(channel));
+                let (image, sampler) = (self.variable(image), self.variable(sampler));
+                Expression::ImageSample {
+                    image,
+                    sampler,
+                    gather: Some(XYZW[usize::from(component)]),
+                    coordinate: at.coordinate,
+                    array_index: at.array_index,
+                    offset,
+                    level: SampleLevel::Zero,
                     depth_ref: at.depth_ref,
                     clamp_to_edge: false,
                 }

@@ -7,9 +7,11 @@ use crate::{
     types::Swizzle,
 };
 
+/// The components of a vector, in order.
+pub(super) const XYZW: [SwizzleComponent; 4] =
+    [SwizzleComponent::X, SwizzleComponent::Y, SwizzleComponent::Z, SwizzleComponent::W];
+
 pub(super) fn pattern(swizzle: Swizzle) -> [SwizzleComponent; 4] {
-    const XYZW: [SwizzleComponent; 4] =
-        [SwizzleComponent::X, SwizzleComponent::Y, SwizzleComponent::Z, SwizzleComponent::W];
     let mut pattern = [SwizzleComponent::X; 4];
     for (i, component) in swizzle.iter().enumerate() {
         pattern[i] = XYZW[component];
@@ -98,5 +100,15 @@ pub(super) fn math(fun: Math) -> MathFunction {
         Math::Unpack2x16snorm => To::Unpack2x16snorm,
         Math::Unpack2x16unorm => To::Unpack2x16unorm,
         Math::Unpack2x16float => To::Unpack2x16float,
+        Math::Pack4x8snorm => To::Pack4x8snorm,
+        Math::Pack4x8unorm => To::Pack4x8unorm,
+        Math::Unpack4x8snorm => To::Unpack4x8snorm,
+        Math::Unpack4x8unorm => To::Unpack4x8unorm,
+        Math::CountOneBits => To::CountOneBits,
+        Math::ReverseBits => To::ReverseBits,
+        Math::FirstTrailingBit => To::FirstTrailingBit,
+        Math::FirstLeadingBit => To::FirstLeadingBit,
+        Math::ExtractBits => To::ExtractBits,
+        Math::InsertBits => To::InsertBits,
     }
 }

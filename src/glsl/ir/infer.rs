@@ -41,6 +41,7 @@ pub fn ty(module: &Module, function: &Function, op: &Op) -> TypeId {
         Op::Convert { value, to } | Op::Bitcast { value, to } => TypeId::vector(to, size(value)),
         Op::Derivative { value, .. } => of(value),
         Op::Sample { channel, .. } | Op::Fetch { channel, .. } => module.texel(channel),
+        Op::Gather { channel, .. } => TypeId::vector(module.scalar(module.texel(channel)), 4),
         Op::TextureSize { .. } => unreachable!("its type is the channel's"),
         Op::Load { place } => of(place),
         Op::Call { function, .. } => module[function].result,
@@ -51,8 +52,11 @@ pub fn ty(module: &Module, function: &Function, op: &Op) -> TypeId {
 fn math(module: &Module, fun: Math, arg: TypeId) -> TypeId {
     match fun {
         Math::Length | Math::Determinant => TypeId::FLOAT,
-        Math::Pack2x16snorm | Math::Pack2x16unorm | Math::Pack2x16float => TypeId::UINT,
+        Math::Pack2x16snorm | Math::Pack2x16unorm | Math::Pack2x16float | Math::Pack4x8snorm | Math::Pack4x8unorm => {
+            TypeId::UINT
+        }
         Math::Unpack2x16snorm | Math::Unpack2x16unorm | Math::Unpack2x16float => TypeId::VEC2,
+        Math::Unpack4x8snorm | Math::Unpack4x8unorm => TypeId::VEC4,
         Math::Transpose => match module.types.get(arg) {
             Type::Matrix { columns, rows } => TypeId::matrix(rows, columns),
             _ => arg,

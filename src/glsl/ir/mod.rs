@@ -31,7 +31,7 @@ pub mod rewrite;
 pub mod verify;
 
 pub use ids::{ConstId, FuncId, GlobalId, Value, VarId};
-pub use op::{Axis, Binary, Input, Level, Math, Op, Unary};
+pub use op::{Axis, Binary, Detail, Input, Level, Math, Op, Unary};
 
 use super::{
     ast::Loc,

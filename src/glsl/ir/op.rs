@@ -52,11 +52,13 @@ pub enum Op {
     /// True where some component of a vector of bools is true.
     Any(Value),
     /// The derivative of a float between neighbouring pixels.
-    Derivative { axis: Axis, value: Value },
+    Derivative { axis: Axis, detail: Detail, value: Value },
 
     // Textures: of a channel, 0 to 3.
     /// A filtered read.
     Sample { channel: u8, coordinate: Value, level: Level, offset: Option<Value> },
+    /// One component of the four texels that a filtered read of the base level mixes.
+    Gather { channel: u8, component: u8, coordinate: Value, offset: Option<Value> },
     /// A texel; zeros outside of the texture.
     Fetch { channel: u8, coordinate: Value, level: Value },
     /// Ints.
@@ -133,7 +135,7 @@ impl Binary {
     }
 }
 
-/// Functions of numbers: those of GLSL ES 3.00, chapter 8, that graphics APIs have too.
+/// Functions of numbers: those of chapter 8, in GLSL ES 3.00 and later versions, that graphics APIs have too.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[repr(u8)]
 pub enum Math {
@@ -185,6 +187,20 @@ pub enum Math {
     Unpack2x16snorm,
     Unpack2x16unorm,
     Unpack2x16float,
+    Pack4x8snorm,
+    Pack4x8unorm,
+    Unpack4x8snorm,
+    Unpack4x8unorm,
+    CountOneBits,
+    ReverseBits,
+    /// The position of the lowest bit that is 1; all ones for 0.
+    FirstTrailingBit,
+    /// The position of the highest bit that differs from the sign, or of the highest 1 of a uint; all ones without one.
+    FirstLeadingBit,
+    /// `extract(x, offset, count)`, with uints that are clamped to the 32 bits.
+    ExtractBits,
+    /// `insert(x, new, offset, count)`, with uints that are clamped to the 32 bits.
+    InsertBits,
 }
 
 impl Math {
@@ -205,6 +221,12 @@ impl Math {
                 | Unpack2x16snorm
                 | Unpack2x16unorm
                 | Unpack2x16float
+                | Pack4x8snorm
+                | Pack4x8unorm
+                | Unpack4x8snorm
+                | Unpack4x8unorm
+                | ExtractBits
+                | InsertBits
         )
     }
 }
@@ -216,6 +238,17 @@ pub enum Axis {
     Y,
     /// The sum of the magnitudes along both.
     Width,
+}
+
+/// The pixels whose difference is a derivative.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Detail {
+    /// The device chooses.
+    Any,
+    /// The same for all pixels of a quad.
+    Coarse,
+    /// The pixel's own row or column.
+    Fine,
 }
 
 /// The mip level that a sample reads.
@@ -278,6 +311,10 @@ macro_rules! each_operand {
                         $visit(y);
                     }
                 }
+                offset.$iter().for_each($visit);
+            }
+            Gather { coordinate, offset, .. } => {
+                $visit(coordinate);
                 offset.$iter().for_each($visit);
             }
             TextureSize { level, .. } => level.$iter().for_each($visit),

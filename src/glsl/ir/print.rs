@@ -5,7 +5,7 @@
 
 use std::fmt::Write;
 
-use super::{Block, Function, GlobalKind, Level, Module, Op, Output, Stmt, Value};
+use super::{Block, Detail, Function, GlobalKind, Level, Module, Op, Output, Stmt, Value};
 use crate::types::{Scalar, Type, TypeId};
 
 /// Returns the text of a program.
@@ -200,7 +200,8 @@ impl Printer<'_> {
             Op::Bitcast { value, .. } => format!("bitcast {}", of(*value)),
             Op::All(value) => format!("all {}", of(*value)),
             Op::Any(value) => format!("any {}", of(*value)),
-            Op::Derivative { axis, value } => format!("derivative {axis:?}, {}", of(*value)),
+            Op::Derivative { axis, detail: Detail::Any, value } => format!("derivative {axis:?}, {}", of(*value)),
+            Op::Derivative { axis, detail, value } => format!("derivative {detail:?} {axis:?}, {}", of(*value)),
             Op::Sample { channel, coordinate, level, offset } => {
                 let level = match level {
                     Level::Auto => String::new(),
@@ -210,6 +211,10 @@ impl Printer<'_> {
                 };
                 let offset = offset.map(|offset| format!(", offset {}", self.value(offset))).unwrap_or_default();
                 format!("sample channel {channel}, {}{level}{offset}", of(*coordinate))
+            }
+            Op::Gather { channel, component, coordinate, offset } => {
+                let offset = offset.map(|offset| format!(", offset {}", self.value(offset))).unwrap_or_default();
+                format!("gather channel {channel}, component {component}, {}{offset}", of(*coordinate))
             }
             Op::Fetch { channel, coordinate, level } => {
                 format!("fetch channel {channel}, {}, level {}", of(*coordinate), of(*level))

@@ -5,7 +5,7 @@
 
 use super::token::Kind;
 use crate::{
-    ast::{BasicType, Interner},
+    ast::{BasicType, Interner, Symbol},
     hir::{Builtin, Uniform},
 };
 use std::sync::LazyLock;
@@ -103,6 +103,8 @@ pub(crate) enum Meaning {
 pub(crate) fn meaning(name: &str) -> Option<Meaning> {
     let symbol = seeded().find(name)?.0;
     Some(match symbol {
+        // Only in some texts: in the others it is an author's name.
+        _ if Builtin::from_symbol(Symbol(symbol)).is_some_and(|builtin| builtin.since > 0) => return None,
         _ if symbol < Builtin::COUNT as u32 => Meaning::Builtin,
         _ if symbol < FIRST_TYPE => Meaning::Uniform,
         SAMPLER_1D => Meaning::Keyword,

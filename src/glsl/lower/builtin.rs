@@ -8,7 +8,7 @@ use super::{
 use crate::{
     builtins::Operation,
     hir::{Builtin, ExprId, Scalar, TypeId},
-    ir::{Axis, Binary, Block, Math, Op, Stmt, Value},
+    ir::{Axis, Binary, Block, Detail, Math, Op, Stmt, Value},
 };
 
 impl Builder<'_, '_> {
@@ -28,6 +28,13 @@ impl Builder<'_, '_> {
     pub(super) fn builtin(&mut self, builtin: Builtin, ty: TypeId, args: &[ExprId]) -> Option<Value> {
         match builtin.operation {
             Operation::Modf => return Some(self.modf(args)),
+            Operation::Frexp => return Some(self.frexp(ty, args)),
+            Operation::AddCarry => return Some(self.add_carry(ty, args)),
+            Operation::SubtractBorrow => return Some(self.subtract_borrow(ty, args)),
+            Operation::MultiplyExtended => {
+                self.multiply_extended(args);
+                return None;
+            }
             Operation::Assert => {
                 self.st_assert(args);
                 return None;
@@ -59,7 +66,7 @@ impl Builder<'_, '_> {
             }
             (O::Compare(op), &[(_, a), (_, b)]) => self.op(op, a, b),
             (O::Bitcast(to), &[(_, a)]) => self.bitcast(a, to),
-            (O::Derivative(axis), &[(_, a)]) => self.derivative(axis, a),
+            (O::Derivative(axis, detail), &[(_, a)]) => self.derivative(axis, detail, a),
             (O::Any, &[(_, a)]) => self.add(Op::Any(a)),
             (O::All, &[(_, a)]) => self.add(Op::All(a)),
             (O::Not, &[(_, a)]) => self.not(a),
@@ -75,6 +82,24 @@ impl Builder<'_, '_> {
                 let whole = self.math(Math::Floor, quotient);
                 let multiple = self.op(Binary::Multiply, b, whole);
                 self.op(Binary::Subtract, a, multiple)
+            }
+            (O::Fma, &[(_, a), (_, b), (_, c)]) => {
+                let product = self.op(Binary::Multiply, a, b);
+                self.op(Binary::Add, product, c)
+            }
+            (O::Ldexp, &[(_, x), (exponent_ty, exponent)]) => self.ldexp(x, exponent_ty, exponent),
+            (O::BitPosition(fun), &[(arg_ty, a)]) => {
+                let position = self.math(fun, a);
+                if arg_ty == ty { position } else { self.bitcast(position, Scalar::Int) }
+            }
+            (O::BitfieldExtract, &[(_, value), (_, offset), (_, count)]) => {
+                let [offset, count] = [offset, count].map(|number| self.bitcast(number, Scalar::Uint));
+                self.math3(Math::ExtractBits, value, offset, count)
+            }
+            (O::BitfieldInsert, &[(_, base), (_, insert), (_, offset), (_, count)]) => {
+                let [offset, count] = [offset, count].map(|number| self.bitcast(number, Scalar::Uint));
+                let (arg1, arg2, arg3) = (Some(insert), Some(offset), Some(count));
+                self.add(Op::Math { fun: Math::InsertBits, arg: base, arg1, arg2, arg3 })
             }
             (O::Mix, &[(_, a), (_, b), (c_ty, c)]) => match self.cx.hir.types.scalar(c_ty) {
                 Some(Scalar::Bool) => self.select(c, b, a),
@@ -142,13 +167,13 @@ impl Builder<'_, '_> {
         self.op(op, magnitude, infinity)
     }
 
-    fn derivative(&mut self, axis: Axis, expr: Value) -> Value {
+    pub(super) fn derivative(&mut self, axis: Axis, detail: Detail, expr: Value) -> Value {
         if self.cx.source.kind.is_vertex() {
             // In a function of Common that the checker accepted.
             let zero = self.float(0.0);
             return self.op(Binary::Multiply, expr, zero);
         }
-        self.add(Op::Derivative { axis, value: expr })
+        self.add(Op::Derivative { axis, detail, value: expr })
     }
 
     /// Expands `t = clamp((x - a) / (b - a), 0, 1)`, then `t t (3 - 2 t)` (section 8.3), unless the edges are known to

@@ -32,6 +32,7 @@ mod expr;
 mod flow;
 mod function;
 mod geometry;
+mod integer;
 mod matrix;
 mod names;
 mod operators;

@@ -4,7 +4,7 @@ use super::function::Builder;
 use crate::{
     builtins::{Form, Lod, Operation},
     hir::{ExprId, ExprKind, SamplerDim, Scalar, Swizzle, TypeId},
-    ir::{Binary, Level, Op, Value},
+    ir::{Axis, Binary, Detail, Level, Math, Op, Value},
 };
 
 impl Builder<'_, '_> {
@@ -14,6 +14,9 @@ impl Builder<'_, '_> {
         match operation {
             Operation::Sample(form) => self.sample(channel, form, args),
             Operation::Fetch { .. } => self.texel_fetch(channel, args),
+            Operation::Gather { offset } => self.gather(channel, offset, args),
+            Operation::QueryLevels => self.query_levels(channel, Scalar::Int),
+            Operation::QueryLod => self.query_lod(channel, args[1]),
             _ => self.texture_size(channel, ty, args[1]),
         }
     }
@@ -121,6 +124,75 @@ impl Builder<'_, '_> {
         }
         let offset = offset.map(|offset| self.constant_offset(offset));
         self.add(Op::Sample { channel, coordinate, level, offset })
+    }
+
+    /// Lowers `textureGather(sampler, coordinate[, offset][, component])`, or with a reference value as the last argument.
+    fn gather(&mut self, channel: u8, offset: Option<usize>, args: &[ExprId]) -> Value {
+        let mut coordinate = self.value(args[1]);
+        let mut component = 0;
+        if let Some(&last) = args.get(2 + usize::from(offset.is_some())) {
+            if self.cx.out.textures[usize::from(channel)].shadow {
+                let ty = TypeId::vector(Scalar::Float, self.dimensions(channel));
+                let reference = self.value(last);
+                coordinate = self.compose(ty, vec![coordinate, reference]);
+            } else {
+                component = self.literal_bits(last).map_or(0, |bits| bits as u8 & 3);
+            }
+        }
+        let offset = offset.map(|at| self.constant_offset(args[at]));
+        self.add(Op::Gather { channel, component, coordinate, offset })
+    }
+
+    /// Returns the number of mip levels.
+    fn query_levels(&mut self, channel: u8, to: Scalar) -> Value {
+        self.cx.reflection.channel(channel).mips = true;
+        let value = self.add(Op::TextureLevels { channel });
+        self.add(Op::Convert { value, to })
+    }
+
+    /// Lowers `textureQueryLod(sampler, coordinate)`, which WGSL does not have: the logarithm of the longer footprint of
+    /// the pixel in texels (section 8.14 of the OpenGL 4.6 specification).
+    fn query_lod(&mut self, channel: u8, coordinate: ExprId) -> Value {
+        let kind = self.kind(channel);
+        let (mut at, mut ty) = (self.coordinate(coordinate), self.cx.hir[coordinate].ty);
+        if ty == TypeId::FLOAT {
+            ty = TypeId::VEC2;
+        }
+        let count = if matches!(kind, SamplerDim::D3 | SamplerDim::D2Array) { 3 } else { 2 };
+        let level = None;
+        let size = self.add_typed(Op::TextureSize { channel, level }, TypeId::vector(Scalar::Int, count));
+        let mut size = self.add(Op::Convert { value: size, to: Scalar::Float });
+        match kind {
+            SamplerDim::D2Array => size = self.swizzle(size, TypeId::VEC3, Swizzle::new(&[0, 1])),
+            SamplerDim::Cube => {
+                // The coordinates on all faces at once: those of one face are this divided by its axis, -1 to 1.
+                let parts = [0, 1, 2].map(|index| {
+                    let part = self.add(Op::Part { base: at, index });
+                    self.math(Math::Abs, part)
+                });
+                let longest = self.math2(Math::Max, parts[0], parts[1]);
+                let longest = self.math2(Math::Max, longest, parts[2]);
+                let longest = self.splat(longest, ty);
+                at = self.op(Binary::Divide, at, longest);
+                let half = self.float(0.5);
+                let width = self.add(Op::Part { base: size, index: 0 });
+                let width = self.op(Binary::Multiply, width, half);
+                size = self.splat(width, ty);
+            }
+            _ => {}
+        }
+        let texels = self.op(Binary::Multiply, at, size);
+        let [x, y] = [Axis::X, Axis::Y].map(|axis| {
+            let side = self.derivative(axis, Detail::Any, texels);
+            self.length(ty, side)
+        });
+        let longer = self.math2(Math::Max, x, y);
+        let lod = self.math(Math::Log2, longer);
+        let levels = self.query_levels(channel, Scalar::Float);
+        let (zero, one) = (self.float(0.0), self.float(1.0));
+        let last = self.op(Binary::Subtract, levels, one);
+        let read = self.math3(Math::Clamp, lod, zero, last);
+        self.compose(TypeId::VEC2, vec![read, lod])
     }
 
     /// Returns a constant offset, in a form that naga's validator accepts as constant.

@@ -7,7 +7,7 @@ use crate::{
     front_end::FrontEnd,
     hir::{Module, TypeId, Uniform},
     preamble::Preamble,
-    source::{ChannelKind, MAX_CHANNELS, PassKind, PassSource},
+    source::{ChannelKind, Dialect, MAX_CHANNELS, PassKind, PassSource},
     stages::Link,
 };
 use eddy_diag::{Diagnostic, SourceId, Span};
@@ -19,6 +19,7 @@ pub(super) type Position = (usize, u32);
 /// is neither has no answers. Cheap enough to rebuild for each text: about a millisecond for a thousand lines.
 pub struct Analysis {
     pub(super) kind: PassKind,
+    pub(super) dialect: Dialect,
     pub(super) channels: [ChannelKind; MAX_CHANNELS],
     /// Common, if there is one, the included texts, then the pass's text: later texts may use names of earlier ones.
     pub(super) sources: Vec<Source>,
@@ -69,6 +70,7 @@ impl Analysis {
         let sources = texts.into_iter().map(|text| Source::new(text, &origins, &mut names)).collect();
         let mut analysis = Self {
             kind: source.kind,
+            dialect: source.dialect,
             channels: source.channels,
             sources,
             included_from: usize::from(source.common.is_some()),

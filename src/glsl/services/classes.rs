@@ -101,7 +101,9 @@ impl Analysis {
             return Some(Class::Field);
         }
         // Not reached by the checker: use what can be determined cheaply.
-        if Builtin::from_symbol(token.symbol()).is_some() && text.kind(i + 1) == Kind::LParen {
+        if Builtin::from_symbol(token.symbol()).is_some_and(|builtin| builtin.exists_in(self.dialect))
+            && text.kind(i + 1) == Kind::LParen
+        {
             return Some(Class::Builtin);
         }
         if Uniform::from_symbol(token.symbol()).is_some() && !self.kind.declares_inputs() {

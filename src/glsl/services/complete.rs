@@ -242,7 +242,8 @@ impl Analysis {
             let doc = docs::variable(name).unwrap_or_default();
             add(name, CompletionKind::Uniform, line(DeclRef::Channel(i as u8)), doc, 1_499);
         }
-        for builtin in Builtin::all().filter(|builtin| !builtin.is_of_image || self.kind == PassKind::Image) {
+        let is_here = |builtin: &Builtin| !builtin.is_of_image || self.kind == PassKind::Image;
+        for builtin in Builtin::all().filter(|builtin| builtin.exists_in(self.dialect) && is_here(builtin)) {
             let texts = show::builtin_texts(builtin);
             let mut detail = texts.first().cloned().unwrap_or_default();
             more_overloads(&mut detail, texts.len().saturating_sub(1));

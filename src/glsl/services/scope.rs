@@ -130,7 +130,7 @@ impl Analysis {
 
     /// Returns the predefined declaration of a name.
     fn predeclared(&self, symbol: Symbol) -> Option<DeclRef> {
-        if let Some(builtin) = Builtin::from_symbol(symbol) {
+        if let Some(builtin) = Builtin::from_symbol(symbol).filter(|builtin| builtin.exists_in(self.dialect)) {
             return (!builtin.is_of_image || self.kind == PassKind::Image).then_some(DeclRef::Builtin(builtin));
         }
         if let Some(uniform) = Uniform::from_symbol(symbol) {

@@ -208,7 +208,7 @@ pub(super) fn overload_text(builtin: Builtin, overload: &Overload) -> (String, V
     let count = overload.params.len();
     let params: Vec<String> = (overload.params.iter().enumerate())
         .map(|(i, pattern)| {
-            let out = if builtin.writes == Some(i) { "out " } else { "" };
+            let out = if builtin.writes.contains(&i) { "out " } else { "" };
             format!("{out}{} {}", pattern_name(*pattern), builtin.param(i, count))
         })
         .collect();

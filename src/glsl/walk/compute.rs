@@ -8,7 +8,7 @@ use super::{
     world::Lod,
 };
 use crate::{
-    ir::{Axis, Binary, Level, Math, Op, Value},
+    ir::{Axis, Binary, Detail, Level, Math, Op, Value},
     types::Scalar,
 };
 
@@ -222,9 +222,16 @@ impl<R: Float> State<'_, R> {
         let cells = |value: Value| self.value(frame, value, lane);
         let int = |value: Value| cells(value)[0].bits() as i32;
         match self.module[frame.function][value] {
-            Op::Derivative { axis, value } => self.derivative(frame, axis, value, lane, out),
+            Op::Derivative { axis, detail, value } => {
+                // A coarse one is that of the quad's first pixel.
+                let lane = if detail == Detail::Coarse { 0 } else { lane };
+                self.derivative(frame, axis, value, lane, out);
+            }
             Op::Sample { channel, coordinate, level, offset } => {
                 self.sample(frame, (channel, coordinate, level, offset), lane, out);
+            }
+            Op::Gather { channel, component, coordinate, offset } => {
+                self.gather(frame, (channel, component, coordinate, offset), lane, out);
             }
             Op::Fetch { channel, coordinate, level } => {
                 let mut at = [0; 3];

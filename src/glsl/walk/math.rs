@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 
 use super::number::{Cell, Float};
 use crate::{
+    builtins::bits,
     ir::{Binary, Math, Unary},
     types::{Scalar, Type},
 };
@@ -136,6 +137,19 @@ pub(super) fn function<R: Float>(fun: Math, ty: Type, scalar: Scalar, args: &[&[
         Math::Sign if scalar != Scalar::Float => {
             out.extend(args[0].iter().map(|cell| Cell::Bits((cell.bits() as i32).signum() as u32)));
         }
+        Math::CountOneBits | Math::ReverseBits | Math::FirstTrailingBit | Math::FirstLeadingBit => {
+            out.extend(args[0].iter().map(|cell| Cell::Bits(of_bits(fun, cell.bits(), scalar))));
+        }
+        Math::ExtractBits => {
+            let [offset, count] = [1, 2].map(|arg: usize| args[arg][0].bits());
+            let extract = |bits| bits::extract_bits(bits, offset, count, scalar == Scalar::Int);
+            out.extend(args[0].iter().map(|cell| Cell::Bits(extract(cell.bits()))));
+        }
+        Math::InsertBits => {
+            let [offset, count] = [2, 3].map(|arg: usize| args[arg][0].bits());
+            let pairs = args[0].iter().zip(args[1]);
+            out.extend(pairs.map(|(base, new)| Cell::Bits(bits::insert_bits(base.bits(), new.bits(), offset, count))));
+        }
         Math::Min | Math::Max | Math::Pow | Math::Atan2 => {
             out.extend((0..size).map(|i| Cell::Float(number(0, i).binary(fun, number(1, i)))));
         }
@@ -179,7 +193,30 @@ pub(super) fn function<R: Float>(fun: Math, ty: Type, scalar: Scalar, args: &[&[
             let bits = args[0][0].bits();
             out.extend([bits as u16, (bits >> 16) as u16].map(|half| Cell::Float(R::from_f64(unpack(fun, half)))));
         }
+        Math::Pack4x8snorm | Math::Pack4x8unorm => {
+            let byte = if fun == Math::Pack4x8snorm { bits::snorm_byte } else { bits::unorm_byte };
+            out.push(Cell::Bits(u32::from_le_bytes(std::array::from_fn(|i| byte(number(0, i).to_f32())))));
+        }
+        Math::Unpack4x8snorm | Math::Unpack4x8unorm => {
+            let bytes = args[0][0].bits().to_le_bytes();
+            out.extend(bytes.map(|byte| {
+                Cell::Float(R::from_f64(match fun {
+                    Math::Unpack4x8snorm => (f64::from(byte as i8) / 127.0).max(-1.0),
+                    _ => f64::from(byte) / 255.0,
+                }))
+            }));
+        }
         _ => out.extend((0..size).map(|i| Cell::Float(number(0, i).unary(fun)))),
+    }
+}
+
+/// Section 8.8 of GLSL 4.60.
+fn of_bits(fun: Math, bits: u32, scalar: Scalar) -> u32 {
+    match fun {
+        Math::CountOneBits => bits.count_ones(),
+        Math::ReverseBits => bits.reverse_bits(),
+        Math::FirstTrailingBit => bits::lowest_bit(bits),
+        _ => bits::highest_bit(bits, scalar == Scalar::Int),
     }
 }
 

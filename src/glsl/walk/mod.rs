@@ -7,7 +7,10 @@
 //! functions are the processor's. A program reads everything outside its own memory from a [`World`].
 
 mod compute;
+mod gather;
 mod inputs;
+#[cfg(test)]
+mod later_tests;
 mod layout;
 mod machine;
 mod math;

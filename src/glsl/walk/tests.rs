@@ -1,6 +1,6 @@
 use super::{number::Float, *};
 use crate::{
-    Link, PassKind, PassSource, Text,
+    Dialect, Link, PassKind, PassSource, Text,
     interface::{GeometryBlock, UniformBlock},
     ir::Output,
     walkable::{Detail, Walkable},
@@ -11,7 +11,7 @@ use eddy_diag::SourceId;
 const LIMIT: u64 = 1_000_000;
 
 /// A world without textures; iTime is 2, the resolution 8x4.
-struct Bare(UniformBlock);
+pub(super) struct Bare(UniformBlock);
 
 impl Default for Bare {
     fn default() -> Self {
@@ -59,15 +59,23 @@ impl World for Bare {
 }
 
 fn walkable(code: &str) -> Walkable {
-    let source = PassSource::new(PassKind::Buffer, Text { id: SourceId(0), text: code });
+    walkable_of(Dialect::Shadertoy, code)
+}
+
+pub(super) fn walkable_of(dialect: Dialect, code: &str) -> Walkable {
+    let source = PassSource { dialect, ..PassSource::new(PassKind::Buffer, Text { id: SourceId(0), text: code }) };
     Walkable::new(&source, &Link::default(), None, Detail::Values).unwrap_or_else(|errors| panic!("{errors:?}"))
 }
 
 fn draw<R: Float>(code: &str, pixel: (u32, u32)) -> Result<[f64; 4], Stop> {
-    let (walkable, world) = (walkable(code), Bare::default());
+    run::<R>(&walkable(code), &Bare::default(), pixel)
+}
+
+/// Runs a program at a pixel.
+pub(super) fn run<R: Float>(walkable: &Walkable, world: &dyn World, pixel: (u32, u32)) -> Result<[f64; 4], Stop> {
     let lane = Machine::<R>::lane_of(pixel);
     let drawn =
-        Machine::<R>::new(&walkable.program, &world, EntryInputs::of_pixel(pixel), LIMIT).run(lane, &mut NoObserver)?;
+        Machine::<R>::new(&walkable.program, world, EntryInputs::of_pixel(pixel), LIMIT).run(lane, &mut NoObserver)?;
     let (_, cells) = drawn.outputs.iter().find(|(output, _)| *output == Output::Target(0)).unwrap();
     Ok(std::array::from_fn(|i| cells[lane][i].float().to_f64()))
 }

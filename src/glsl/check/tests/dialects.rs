@@ -6,16 +6,16 @@ use eddy_diag::SourceId;
 /// The dialect of an ISF file without a `#version` line.
 const ISF: Dialect = Dialect::Any(Version { number: 120, is_es: false });
 
-fn source(dialect: Dialect, text: &str) -> PassSource<'_> {
+pub(super) fn source(dialect: Dialect, text: &str) -> PassSource<'_> {
     PassSource { dialect, ..PassSource::new(PassKind::Image, Text { id: SourceId(0), text }) }
 }
 
-fn errors(dialect: Dialect, text: &str) -> Vec<String> {
+pub(super) fn errors(dialect: Dialect, text: &str) -> Vec<String> {
     let said = diagnose(&source(dialect, text));
     said.into_iter().filter(|d| d.is_error()).map(|d| d.message).collect()
 }
 
-fn body(statements: &str) -> String {
+pub(super) fn body(statements: &str) -> String {
     format!("float half_of(float x) {{ return x / 2; }}\nvoid mainImage(out vec4 c, in vec2 p) {{ {statements} }}\n")
 }
 

@@ -3,6 +3,7 @@
 mod corpus;
 mod dialects;
 mod given;
+mod later;
 mod names;
 mod nesting;
 mod promises;

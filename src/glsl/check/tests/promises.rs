@@ -266,9 +266,7 @@ impl Walk<'_> {
                 module[args].to_vec()
             }
             ExprKind::Builtin { builtin, args } => {
-                if builtin.writes.is_some() {
-                    place(module[args][1]);
-                }
+                builtin.writes.iter().for_each(|&at| place(module[args][at]));
                 module[args].to_vec()
             }
         }

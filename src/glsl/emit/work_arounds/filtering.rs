@@ -8,7 +8,7 @@
 
 use crate::{
     ir::{
-        Axis, Binary, Level, Math, Module, Op, Value,
+        Axis, Binary, Detail, Level, Math, Module, Op, Value,
         rewrite::{self, Rewriter, Rule},
     },
     source::MAX_CHANNELS,
@@ -68,7 +68,8 @@ impl Reads<'_, '_> {
     }
 
     fn implicit_lod(&mut self) -> Value {
-        let [x, y] = [Axis::X, Axis::Y].map(|axis| self.r.add(Op::Derivative { axis, value: self.coordinate }));
+        let [x, y] = [Axis::X, Axis::Y]
+            .map(|axis| self.r.add(Op::Derivative { axis, detail: Detail::Any, value: self.coordinate }));
         self.lod(x, y)
     }
 
