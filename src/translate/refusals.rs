@@ -9,10 +9,12 @@ use crate::{GlslVersion, Language};
 /// Returns an error for code that a writer would write although no compiler of the language accepts it.
 pub(crate) fn of_module(module: &naga::Module, language: Language, pass: &PassTexts<'_>) -> Option<Diagnostic> {
     let Language::Glsl(version) = language else { return None };
-    if version.has_packing() {
-        return None;
-    }
-    let used = functions(module).find_map(|function| function.expressions.iter().find_map(|(_, e)| packing(e)))?;
+    let missing = |e: &Expression| match later_function(e) {
+        Some(name) if version != GlslVersion::Desktop450 => Some(name),
+        _ if version.has_packing() => None,
+        _ => packing(e),
+    };
+    let used = functions(module).find_map(|function| function.expressions.iter().find_map(|(_, e)| missing(e)))?;
     let message = format!("{} cannot be written as {language}, which has no `{used}`", pass.title);
     let newer = GlslVersion::Desktop450.key();
     Some(Diagnostic::error(pass.word(used), message).hint(format!("write GLSL {newer} (--glsl-version {newer})")))
@@ -32,6 +34,28 @@ fn packing(expression: &Expression) -> Option<&'static str> {
         MathFunction::Unpack2x16snorm => "unpackSnorm2x16",
         MathFunction::Unpack2x16unorm => "unpackUnorm2x16",
         MathFunction::Unpack2x16float => "unpackHalf2x16",
+        _ => return None,
+    })
+}
+
+/// Returns the name of a function of GLSL 4.00 and later.
+fn later_function(expression: &Expression) -> Option<&'static str> {
+    let fun = match expression {
+        Expression::Math { fun, .. } => fun,
+        Expression::ImageSample { gather: Some(_), .. } => return Some("textureGather"),
+        _ => return None,
+    };
+    Some(match fun {
+        MathFunction::Pack4x8snorm => "packSnorm4x8",
+        MathFunction::Pack4x8unorm => "packUnorm4x8",
+        MathFunction::Unpack4x8snorm => "unpackSnorm4x8",
+        MathFunction::Unpack4x8unorm => "unpackUnorm4x8",
+        MathFunction::CountOneBits => "bitCount",
+        MathFunction::ReverseBits => "bitfieldReverse",
+        MathFunction::FirstTrailingBit => "findLSB",
+        MathFunction::FirstLeadingBit => "findMSB",
+        MathFunction::ExtractBits => "bitfieldExtract",
+        MathFunction::InsertBits => "bitfieldInsert",
         _ => return None,
     })
 }
