@@ -144,6 +144,7 @@ pub(super) const ROWS: &[Row] = &[
         ],
         text: "min(max(x, minVal), maxVal): x clamped to the range. Undefined where minVal > maxVal.", ..ROW },
     Row { name: "mix", params: "x, y, a", overloads: &[sig(F, &[F, F, F]), sig(F, &[F, F, F1]), sig(F, &[F, F, B])],
+        later_overloads: &[sig(I, &[I, I, B]), sig(U, &[U, U, B]), sig(B, &[B, B, B])],
         operation: Mix, constant: Whole(constant::mixed), may_be_overloaded: true,
         text: "Linear blend x · (1 - a) + y · a; a is not clamped. With a bool: y where a is true, else x, with \
                nothing computed.", ..ROW },

@@ -17,6 +17,8 @@ pub struct Row {
     pub name: &'static str,
     /// The more common ones first.
     pub overloads: &'static [Overload],
+    /// Overloads that only GLSL 4.50 and later versions have.
+    pub later_overloads: &'static [Overload],
     pub operation: Operation,
     pub constant: Constant,
     /// The arguments for which the result is undefined.
@@ -39,6 +41,7 @@ pub struct Row {
 pub(super) const ROW: Row = Row {
     name: "",
     overloads: &[],
+    later_overloads: &[],
     operation: Operation::Assert,
     constant: Constant::None,
     undefined_for: &[],
@@ -68,6 +71,8 @@ pub enum Operation {
     Modulo,
     Modf,
     Fma,
+    /// A variable of an earlier stage at another place in the pixel.
+    Interpolate,
     Frexp,
     Ldexp,
     /// A function of an int's or a uint's bits whose result is an int.

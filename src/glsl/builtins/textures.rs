@@ -172,6 +172,16 @@ pub(super) const ROWS: &[Row] = &[
         constant: Each(|_| 0.0), since: 450, text: "As `fwidth`, from this pixel's own row and column.", ..ROW },
     Row { name: "fwidthCoarse", params: "p", overloads: FLOAT, operation: Derivative(Axis::Width, Detail::Coarse),
         constant: Each(|_| 0.0), since: 450, text: "As `fwidth`, equal for all four pixels of 2x2.", ..ROW },
+    // 8.14.2 of GLSL 4.60.
+    Row { name: "interpolateAtCentroid", params: "interpolant", overloads: FLOAT, operation: Interpolate, since: 400,
+        text: "A variable of an earlier stage at a place that both the pixel and the triangle cover: here the centre.",
+        ..ROW },
+    Row { name: "interpolateAtSample", params: "interpolant, sample", overloads: &[sig(F, &[F, I1])],
+        operation: Interpolate, since: 400,
+        text: "A variable of an earlier stage at a sample of the pixel: here there is one, the centre.", ..ROW },
+    Row { name: "interpolateAtOffset", params: "interpolant, offset", overloads: &[sig(F, &[F, F2])],
+        operation: Interpolate, since: 400,
+        text: "A variable of an earlier stage at an offset, in pixels, from the centre of the pixel.", ..ROW },
     // Shadertoy's own, in Image passes: `st_assert(bool)` and `st_assert(bool, int)`, void.
     Row { name: "st_assert", params: "condition, value", overloads: &[sig(VOID, &[BOOL]), sig(VOID, &[BOOL, I1])],
         operation: Assert, is_of_image: true,

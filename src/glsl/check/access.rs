@@ -22,6 +22,9 @@ impl Checker<'_> {
             },
             Type::Struct(id) => self.struct_member(base, id, name, loc),
             Type::Vector { size, .. } => self.swizzle(base, size, name, loc),
+            Type::Scalar(_) if self.settings.dialect.has_lists() && components(self.name(name), 1).is_some() => {
+                self.scalar_swizzle(base, self.name(name).len() as u8, loc)
+            }
             _ => {
                 let (text, found) = (self.name(name), self.type_name(ty));
                 self.error(loc.last, format!("a `{found}` has no `.{text}`"));
@@ -145,6 +148,18 @@ impl Checker<'_> {
         self.push(ExprKind::Swizzle { base, swizzle }, ty, flags, loc)
     }
 
+    /// Returns a scalar repeated `count` times: `x.xxx` (GLSL 4.20, section 5.5).
+    fn scalar_swizzle(&mut self, base: ExprId, count: u8, loc: Loc) -> ExprId {
+        let Some((scalar, _)) = self.vector_shape(self.ty(base)).filter(|_| count > 1) else { return base };
+        let ty = TypeId::vector(scalar, count);
+        if let Some(words) = self.words(base) {
+            let repeated: super::words::ScalarWords = (0..count).map(|_| words[0]).collect();
+            return self.constant(ty, repeated.as_slice(), loc);
+        }
+        let flags = self.module[base].flags.inherited();
+        self.push(ExprKind::Splat(base), ty, flags, loc)
+    }
+
     #[cold]
     fn bad_swizzle(&mut self, base: ExprId, size: u8, text: &str, loc: Loc) {
         let found = self.type_name(self.ty(base));
@@ -257,7 +272,7 @@ impl Checker<'_> {
         self.push(ExprKind::Channel(0), ty, ExprFlags::default(), loc)
     }
 
-    /// Checks `.length()`: a constant for arrays, whatever their contents.
+    /// Checks `.length()`: a constant for arrays, and from GLSL 4.20 on for vectors and matrices, whatever their contents.
     pub(super) fn method(&mut self, base: ExprId, name: ast::Ident, loc: Loc) -> ExprId {
         let ty = self.ty(base);
         let text = self.name(name.symbol);
@@ -270,6 +285,9 @@ impl Checker<'_> {
         }
         let len = match self.module.types.get(ty) {
             Type::Array { len, .. } => len,
+            // GLSL 4.20, sections 5.5 and 5.6.
+            Type::Vector { size, .. } if self.settings.dialect.has_lists() => size.into(),
+            Type::Matrix { columns, .. } if self.settings.dialect.has_lists() => columns.into(),
             Type::Error => return self.error_expr_of(TypeId::INT, loc),
             _ => {
                 let found = self.type_name(ty);

@@ -579,7 +579,10 @@ impl Checker<'_> {
 
     /// Returns the result type of a built-in for these argument types, if some overload takes them.
     fn builtin_result(&self, builtin: Builtin, args: &[TypeId]) -> Option<TypeId> {
-        builtin.overloads.iter().find_map(|overload| overload.result_for(args, &self.module.types))
+        let is_later = self.settings.dialect.builtins_until() >= 450;
+        let later = builtin.later_overloads.iter().filter(|_| is_later);
+        let mut all = builtin.overloads.iter().chain(later);
+        all.find_map(|overload| overload.result_for(args, &self.module.types))
     }
 }
 

@@ -62,6 +62,8 @@ impl Checker<'_> {
                 }
             }
             DeclKind::Precision { precision, ty } => self.precision_statement(precision, ty),
+            // `precise` has no effect.
+            DeclKind::Qualify { qualifiers, .. } if self.are_precise(qualifiers) => {}
             DeclKind::Qualify { .. } => {
                 self.error(loc, "qualifiers of declared names can only be changed at file scope");
             }
@@ -217,7 +219,7 @@ impl Checker<'_> {
     ) {
         let name = declarator.name;
         let text = self.name(name.symbol);
-        if self.redeclared_uniform(quals, base, spec, declarator) {
+        if self.redeclared_uniform(quals, base, spec, declarator) || self.redeclared_variable(quals, base, declarator) {
             return;
         }
         if quals.storage.is_some() && !self.env.is_main() && self.is_taken(name) {
@@ -399,9 +401,16 @@ impl Checker<'_> {
         id
     }
 
+    fn are_precise(&self, qualifiers: List<ast::Qualifier>) -> bool {
+        self.ast[qualifiers].iter().all(|qualifier| qualifier.kind == Q::Precise)
+    }
+
     /// Checks `invariant a, b;` and `layout(..) uniform;`.
     fn qualify(&mut self, qualifiers: List<ast::Qualifier>, names: List<Ident>, loc: Loc) {
         let quals = self.qualifiers(qualifiers, DeclContext::Global);
+        if self.are_precise(qualifiers) {
+            return;
+        }
         let ast = self.ast;
         if ast[names].is_empty() {
             self.check_layout(&quals, LayoutOf::Block);
@@ -439,7 +448,9 @@ impl Checker<'_> {
     ) {
         let ast = self.ast;
         let quals = self.qualifiers(qualifiers, DeclContext::Block);
-        if !quals.is(Q::Uniform) {
+        // GLSL 1.50, section 4.3.7: what an earlier stage passes.
+        let is_input = quals.is(Q::In) && self.env.is_main();
+        if !quals.is(Q::Uniform) && !is_input {
             self.error(name, "GLSL ES 3.00 has only `uniform` blocks");
         }
         self.check_layout(&quals, LayoutOf::Block);
@@ -451,7 +462,9 @@ impl Checker<'_> {
             let spec = ast[field.ty];
             let of_field = self.qualifiers(field.qualifiers, DeclContext::Block);
             self.check_layout(&of_field, LayoutOf::Member);
-            if let Some((Q::In | Q::Out, token)) = of_field.storage {
+            if let Some((Q::In | Q::Out, token)) = of_field.storage
+                && !is_input
+            {
                 self.error(token, "a member of a uniform block cannot be `in` or `out`");
             }
             for declarator in &ast[field.declarators] {
@@ -480,6 +493,8 @@ impl Checker<'_> {
         let is_plain = self.env.is_plain();
         if is_plain {
             self.plain_block(&quals, fields, dims);
+        } else if is_input {
+            self.warning(name, format!("the block `{text}` has no values (0): no vertex shader sets them"));
         } else {
             self.warning(name, format!("the uniform block `{text}` has no values: its members are 0"));
         }

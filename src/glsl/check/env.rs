@@ -83,6 +83,27 @@ pub(crate) const LIMITS: [(&str, i32); 11] = [
     ("gl_MaxProgramTexelOffset", MAX_OFFSET),
 ];
 
+/// Built-in constants of other versions of GLSL, and inputs whose value is always the same here: there is one sample, and
+/// no geometry.
+pub(super) const LATER_LIMITS: [(&str, i32); 16] = [
+    ("gl_MaxTextureUnits", 16),
+    ("gl_MaxTextureCoords", 8),
+    ("gl_MaxVaryingFloats", 60),
+    ("gl_MaxVaryingComponents", 60),
+    ("gl_MaxVaryingVectors", 15),
+    ("gl_MaxFragmentInputComponents", 60),
+    ("gl_MaxFragmentUniformComponents", 896),
+    ("gl_MaxVertexUniformComponents", 1024),
+    ("gl_MaxClipDistances", 8),
+    ("gl_MaxSamples", 1),
+    ("gl_SampleID", 0),
+    ("gl_NumSamples", 1),
+    ("gl_PrimitiveID", 0),
+    ("gl_Layer", 0),
+    ("gl_ViewportIndex", 0),
+    ("gl_MaxLights", 8),
+];
+
 /// The legal range of the constant offsets of section 8.8.
 pub(super) const MIN_OFFSET: i32 = -8;
 pub(super) const MAX_OFFSET: i32 = 7;

@@ -51,6 +51,11 @@ impl Checker<'_> {
                 self.scopes.define(builtin.symbol(), Binding::Builtin(builtin), scope::LANGUAGE);
             }
         }
+        if dialect.is_any() {
+            for (name, value) in env::LATER_LIMITS {
+                self.define_name(name, Binding::BuiltinConst(value), scope::LANGUAGE);
+            }
+        }
         for &uniform in Uniform::ALL {
             if self.env.has(uniform) {
                 self.scopes.define(uniform.symbol(), Binding::Uniform(uniform), scope::FILE);

@@ -72,6 +72,7 @@ fn text(kind: Q) -> &'static str {
         Q::Smooth => "smooth",
         Q::Centroid => "centroid",
         Q::Invariant => "invariant",
+        Q::Precise => "precise",
         Q::Precision(Precision::Low) => "lowp",
         Q::Precision(Precision::Medium) => "mediump",
         Q::Precision(Precision::High) => "highp",
@@ -81,6 +82,7 @@ fn text(kind: Q) -> &'static str {
 
 fn fits(kind: Q, place: DeclContext) -> bool {
     match kind {
+        Q::Precise => true,
         Q::Precision(_) => place != DeclContext::Block,
         Q::Const => matches!(place, DeclContext::Global | DeclContext::Local | DeclContext::Param),
         Q::In | Q::Out => matches!(place, DeclContext::Global | DeclContext::Param | DeclContext::Block),
@@ -97,7 +99,9 @@ impl Checker<'_> {
         let ast = self.ast;
         for &qualifier in &ast[list] {
             let Qualifier { kind, token } = qualifier;
-            if !fits(kind, place) {
+            // Blocks of inputs have members with interpolation qualifiers (GLSL 1.50, section 4.3.7).
+            let is_of_input = place == DeclContext::Block && self.settings.dialect.is_any();
+            if !fits(kind, place) && !(is_of_input && fits(kind, DeclContext::Global)) {
                 self.misplaced(kind, token, place);
                 continue;
             }
@@ -126,6 +130,7 @@ impl Checker<'_> {
                     out.interpolation = Some(token);
                 }
                 Q::Invariant => out.invariant = Some(token),
+                Q::Precise => {}
                 Q::Layout(items) => out.layout = Some((token, items)),
             }
         }
@@ -254,6 +259,15 @@ impl Checker<'_> {
                 | "component"
                 | "origin_upper_left"
                 | "pixel_center_integer"
+                | "depth_any"
+                | "depth_greater"
+                | "depth_less"
+                | "depth_unchanged"
+                | "early_fragment_tests"
+                | "offset"
+                | "align"
+                | "shared"
+                | "packed"
                     if self.settings.dialect.is_any() =>
                 {
                     continue;
@@ -269,6 +283,7 @@ impl Checker<'_> {
                     self.hint("write `std140`");
                     continue;
                 }
+                _ if self.settings.dialect.is_any() && name.starts_with("blend_support") => continue,
                 _ => {
                     self.error(item.name, format!("GLSL ES 3.00 has no layout `{name}`"));
                     continue;
@@ -285,6 +300,8 @@ impl Checker<'_> {
         let (input, output) = (quals.is(Q::In), quals.is(Q::Out));
         if let Some(token) = quals.invariant
             && !output
+            // GLSL ES 1.00, section 4.6.1.
+            && !(input && self.settings.dialect.is_any())
         {
             self.error(token, "`invariant` is only allowed on outputs");
         }

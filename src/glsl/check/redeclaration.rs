@@ -4,7 +4,7 @@
 use super::{
     checker::Checker,
     env::custom_uniform_type,
-    qualifiers::Qualifiers,
+    qualifiers::{LayoutOf, Qualifiers},
     scope::{self, Binding},
 };
 use crate::{
@@ -47,6 +47,35 @@ impl Checker<'_> {
         }
         self.record_use(name.token, target);
         self.check_redeclaration(name, ty, given);
+        true
+    }
+
+    /// Checks a redeclaration of a variable of the language, which may change the place of `gl_FragCoord` (GLSL 4.60,
+    /// section 7.1.5). Returns whether it was one.
+    pub(super) fn redeclared_variable(&mut self, quals: &Qualifiers, base: TypeId, declarator: Declarator) -> bool {
+        let name = declarator.name;
+        let Binding::BuiltinVar(variable) = self.scopes.get(name.symbol) else { return false };
+        if !self.settings.dialect.is_any() || !matches!(self.name(name.symbol), "gl_FragCoord" | "gl_FragDepth") {
+            return false;
+        }
+        let storage = if variable.is_place() { Q::Out } else { Q::In };
+        if base != variable.ty() || !declarator.dims.is_empty() || declarator.init.is_some() || !quals.is(storage) {
+            let text = self.name(name.symbol);
+            let (is, ty) = (if variable.is_place() { "out" } else { "in" }, self.type_name(variable.ty()));
+            self.error(name, format!("`{text}` can only be declared as `{is} {ty} {text}`"));
+            return true;
+        }
+        self.record_use(name.token, DeclRef::BuiltinVar(variable));
+        self.check_layout(quals, LayoutOf::Variable);
+        let Some((_, items)) = quals.layout else { return true };
+        let ast = self.ast;
+        for item in &ast[items] {
+            match self.name(item.name.symbol) {
+                "origin_upper_left" => self.module.frag_coord.is_from_top = true,
+                "pixel_center_integer" => self.module.frag_coord.is_of_corners = true,
+                _ => {}
+            }
+        }
         true
     }
 

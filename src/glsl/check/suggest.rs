@@ -151,6 +151,48 @@ const VARIABLES: &[(&str, &str)] = &[
     ("this", "GLSL has no objects"),
 ];
 
+/// Returns what Eddy does not have for a type of later versions of GLSL, and how to do without it.
+fn unsupported_type(name: &str) -> Option<(&'static str, &'static str)> {
+    let rest = name.strip_prefix(['i', 'u']).unwrap_or(name);
+    Some(match rest {
+        "atomic_uint" | "atomic_uint " => ("atomic counters", "count in a buffer, one texel for each counter"),
+        _ if rest.starts_with("image") => {
+            ("images that shaders write", "write to the output of a pass, and read it with `texelFetch`")
+        }
+        "sampler2DMS" | "sampler2DMSArray" => ("multisampled textures", "write `sampler2D`"),
+        "samplerBuffer" | "sampler2DRect" => {
+            ("textures of this kind", "write `sampler2D`, and read it with `texelFetch`")
+        }
+        "sampler1DArray"
+        | "samplerCubeArray"
+        | "sampler1DShadow"
+        | "sampler1DArrayShadow"
+        | "samplerCubeArrayShadow"
+        | "sampler2DRectShadow" => ("textures of this kind", "write `sampler2D`"),
+        "nt64_t" | "int64_t" | "nt16_t" | "int16_t" | "nt8_t" | "int8_t" => {
+            ("integers of other sizes than 32 bits", "write `int` or `uint`")
+        }
+        _ => return None,
+    })
+}
+
+/// Returns what Eddy does not have for a function of later versions of GLSL.
+fn unsupported_function(name: &str) -> Option<&'static str> {
+    Some(match name {
+        _ if name.starts_with("atomicCounter") => "atomic counters",
+        _ if name.starts_with("atomic") => "shader storage blocks",
+        "imageLoad" | "imageStore" | "imageSize" | "imageSamples" => "images that shaders write",
+        _ if name.starts_with("imageAtomic") => "images that shaders write",
+        "textureGatherOffsets" => "such function: call `textureGatherOffset` for each offset",
+        "memoryBarrier" | "memoryBarrierBuffer" | "memoryBarrierImage" | "groupMemoryBarrier" | "barrier" => {
+            "memory that shaders share"
+        }
+        "subpassLoad" => "passes within passes",
+        "packDouble2x32" | "unpackDouble2x32" => "double precision",
+        _ => return None,
+    })
+}
+
 /// Returns how to use Shadertoy's input instead of another host's variable of this name.
 pub(super) fn shadertoy_input(name: &str) -> Option<&'static str> {
     find(VARIABLES, name).filter(|hint| hint.starts_with("use `i"))
@@ -276,6 +318,12 @@ impl Checker<'_> {
         if self.is_explained(symbol) || !self.is_first_report(symbol) {
             return;
         }
+        if self.settings.dialect.is_any()
+            && let Some(what) = unsupported_function(name)
+        {
+            self.error(loc.first, format!("`{name}` is not supported: Eddy has no {what}"));
+            return;
+        }
         self.error(loc.first, format!("there is no function `{name}`"));
         if self.is_full() {
             return;
@@ -311,6 +359,13 @@ impl Checker<'_> {
             return;
         }
         let name = self.name(symbol);
+        if self.settings.dialect.is_any()
+            && let Some((what, hint)) = unsupported_type(name)
+        {
+            self.error(token, format!("`{name}` is not supported: Eddy has no {what}"));
+            self.hint(hint);
+            return;
+        }
         self.error(token, format!("there is no type `{name}`"));
         if self.is_full() {
             return;

@@ -45,6 +45,7 @@ pub struct Module {
     /// `gl_FragColor` and `gl_FragData`, if the text of a [`crate::PassKind::Main`] names them.
     pub frag_color: Option<GlobalId>,
     pub frag_data: Option<GlobalId>,
+    pub frag_coord: FragCoord,
     /// One entry per signature; prototypes and definition share it.
     pub functions: Vec<Function>,
     pub exprs: Vec<Expr>,
@@ -68,6 +69,15 @@ pub struct Module {
     tokens: Vec<TokenId>,
 }
 
+/// The place in a pixel that `gl_FragCoord` names, by the layout of its declaration.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FragCoord {
+    /// y grows downwards from the top (`origin_upper_left`).
+    pub is_from_top: bool,
+    /// It is the lower left corner instead of the centre (`pixel_center_integer`).
+    pub is_of_corners: bool,
+}
+
 /// Cloning a module allows checking to continue in the copy: the text after Common is checked into it.
 impl Clone for Module {
     fn clone(&self) -> Self {
@@ -78,6 +88,7 @@ impl Clone for Module {
             samplers: self.samplers.clone(),
             frag_color: self.frag_color,
             frag_data: self.frag_data,
+            frag_coord: self.frag_coord,
             functions: self.functions.clone(),
             exprs: ast::with_room(&self.exprs),
             stmts: ast::with_room(&self.stmts),

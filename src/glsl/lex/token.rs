@@ -90,6 +90,8 @@ pub(crate) enum Kind {
     Smooth,
     Centroid,
     Invariant,
+    /// `precise` of GLSL 4.00, which is a name in GLSL ES 3.00: the parser tells which it is.
+    Precise,
     Lowp,
     Mediump,
     Highp,
@@ -146,7 +148,20 @@ impl Kind {
         use Kind::*;
         matches!(
             self,
-            Const | In | Out | Inout | Uniform | Flat | Smooth | Centroid | Invariant | Lowp | Mediump | Highp | Layout
+            Const
+                | In
+                | Out
+                | Inout
+                | Uniform
+                | Flat
+                | Smooth
+                | Centroid
+                | Invariant
+                | Precise
+                | Lowp
+                | Mediump
+                | Highp
+                | Layout
         )
     }
 

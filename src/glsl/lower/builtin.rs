@@ -87,6 +87,17 @@ impl Builder<'_, '_> {
                 let product = self.op(Binary::Multiply, a, b);
                 self.op(Binary::Add, product, c)
             }
+            (O::Interpolate, &[(_, x)] | &[(_, x), (TypeId::INT, _)]) => x,
+            (O::Interpolate, &[(_, x), (_, offset)]) => {
+                // Exact for what is interpolated linearly on the screen.
+                [Axis::X, Axis::Y].into_iter().zip(0..).fold(x, |moved, (axis, index)| {
+                    let slope = self.derivative(axis, Detail::Any, x);
+                    let distance = self.add(Op::Part { base: offset, index });
+                    let distance = self.splat_to(distance, TypeId::FLOAT, ty);
+                    let change = self.op(Binary::Multiply, slope, distance);
+                    self.op(Binary::Add, moved, change)
+                })
+            }
             (O::Ldexp, &[(_, x), (exponent_ty, exponent)]) => self.ldexp(x, exponent_ty, exponent),
             (O::BitPosition(fun), &[(arg_ty, a)]) => {
                 let position = self.math(fun, a);

@@ -3,7 +3,7 @@
 use super::{context::Lowering, function::Builder, reachable::Reachable};
 use crate::{
     Alpha, PassKind,
-    hir::{GlobalId, GlobalStorage, Scalar, Swizzle, TypeId, Uniform, VarFlags},
+    hir::{FragCoord, GlobalId, GlobalStorage, Scalar, Swizzle, TypeId, Uniform, VarFlags},
     ir::{self, Binary, Block, Case, Input, Math, Op, Output, Stmt, Value},
 };
 
@@ -94,7 +94,21 @@ impl Builder<'_, '_> {
     /// Sets `gl_FragCoord` as WebGL does for a triangle at depth 0: z is one half, w is one.
     fn set_frag_coord(&mut self, position: Value) {
         let Some(variable) = self.cx.resources.frag_coord else { return };
-        let at = self.swizzle(position, TypeId::VEC4, Swizzle::new(&[0, 1]));
+        let mut at = self.swizzle(position, TypeId::VEC4, Swizzle::new(&[0, 1]));
+        let FragCoord { is_from_top, is_of_corners } = self.cx.hir.frag_coord;
+        if is_from_top {
+            let [x, y] = [0, 1].map(|index| self.add(Op::Part { base: at, index }));
+            let resolution = self.cx.uniform(Uniform::Resolution);
+            let resolution = self.global(resolution);
+            let resolution = self.load(resolution);
+            let height = self.add(Op::Part { base: resolution, index: 1 });
+            let y = self.op(Binary::Subtract, height, y);
+            at = self.compose(TypeId::VEC2, vec![x, y]);
+        }
+        if is_of_corners {
+            let half = self.float_of(TypeId::VEC2, 0.5);
+            at = self.op(Binary::Subtract, at, half);
+        }
         let (half, one) = (self.float(0.5), self.float(1.0));
         let coordinate = self.compose(TypeId::VEC4, vec![at, half, one]);
         let pointer = self.global(variable);

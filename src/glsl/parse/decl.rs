@@ -7,7 +7,7 @@ use super::{
 use crate::{
     ast::{
         DeclId, DeclKind, Declarator, Dim, ExprId, ExprKind, LayoutItem, List, Precision, Qualifier, QualifierKind,
-        TypeSpec, TypeSpecId, TypeSpecKind,
+        StructDef, TypeSpec, TypeSpecId, TypeSpecKind,
     },
     lex::Kind,
 };
@@ -31,7 +31,9 @@ impl Parser<'_> {
                     self.bump();
                     continue;
                 }
-                _ if self.starts_declaration() => self.with_rollback(|p| p.declaration(true)),
+                _ if self.starts_declaration() || self.starts_subroutine() => {
+                    self.with_rollback(|p| p.declaration(true))
+                }
                 _ => Err(self.report_outside()),
             };
             let item = match item {
@@ -131,6 +133,7 @@ impl Parser<'_> {
             return Err(Failed);
         }
         let mut qualifiers = self.qualifiers()?;
+        self.check_supported()?;
         if !qualifiers.is_empty()
             && let Some(decl) = self.without_type(first, qualifiers)?
         {
@@ -219,6 +222,7 @@ impl Parser<'_> {
                 Kind::Smooth => QualifierKind::Smooth,
                 Kind::Centroid => QualifierKind::Centroid,
                 Kind::Invariant => QualifierKind::Invariant,
+                Kind::Precise => QualifierKind::Precise,
                 Kind::Lowp => QualifierKind::Precision(Precision::Low),
                 Kind::Mediump => QualifierKind::Precision(Precision::Medium),
                 Kind::Highp => QualifierKind::Precision(Precision::High),
@@ -350,7 +354,8 @@ impl Parser<'_> {
     }
 
     /// Parses `{a, {b, c}}` as the equivalent constructor (GLSL 4.30, section 4.1.11): of an array if the type or the
-    /// name has dimensions, otherwise of the type. A nested list is a value of the type without dimensions.
+    /// name has dimensions, otherwise of the type. A nested list is an element, a column of a matrix or a member of a
+    /// struct.
     fn list_initializer(&mut self, ty: TypeSpecId, dims: List<Dim>) -> Parse<ExprId> {
         let first = self.at;
         let spec = self.ast[ty];
@@ -359,10 +364,10 @@ impl Parser<'_> {
         let mark = self.expr_stack.len();
         while self.kind() != Kind::RBrace {
             let value = match self.kind() {
-                Kind::LBrace if is_array => {
-                    let element = self.ast.type_spec(TypeSpec { dims: List::EMPTY, ..spec });
-                    self.list_initializer(element, List::EMPTY)
-                }
+                Kind::LBrace => match self.part_of_list(spec, dims, self.expr_stack.len() - mark) {
+                    Some((part, dims)) => self.list_initializer(part, dims),
+                    None => self.full_assignment(),
+                },
                 _ => self.full_assignment(),
             };
             let value = value.inspect_err(|Failed| self.expr_stack.truncate(mark))?;
@@ -383,6 +388,28 @@ impl Parser<'_> {
             }
         };
         Ok(self.ast.expr(node, loc))
+    }
+
+    /// Returns the type and the dimensions of a value of a list that initialises a type with dimensions.
+    fn part_of_list(&mut self, spec: TypeSpec, dims: List<Dim>, index: usize) -> Option<(TypeSpecId, List<Dim>)> {
+        if !spec.dims.is_empty() || !dims.is_empty() {
+            return Some((self.ast.type_spec(TypeSpec { dims: List::EMPTY, ..spec }), List::EMPTY));
+        }
+        let def = match spec.kind {
+            TypeSpecKind::Basic(matrix) => {
+                let column = TypeSpecKind::Basic(matrix.column()?);
+                return Some((self.ast.type_spec(TypeSpec { kind: column, ..spec }), List::EMPTY));
+            }
+            TypeSpecKind::Named(name) => {
+                let is_it = |def: &&StructDef| def.name.is_some_and(|known| known.symbol == name);
+                *self.ast.structs.iter().rev().find(is_it)?
+            }
+            TypeSpecKind::Struct(_) | TypeSpecKind::Error => return None,
+        };
+        let members = self.ast[def.fields]
+            .iter()
+            .flat_map(|field| self.ast[field.declarators].iter().map(|declarator| (field.ty, declarator.dims)));
+        members.into_iter().nth(index)
     }
 
     /// Skips a value that could not be parsed.

@@ -42,6 +42,13 @@ pub(super) fn starts_foreign_declaration(word: &str) -> bool {
     matches!(word, "class" | "enum" | "typedef" | "template" | "using" | "namespace" | "union" | "interface")
 }
 
+/// Returns the message about a type of double precision.
+pub(super) fn double_precision(word: &str) -> Option<String> {
+    let is_it =
+        word == "double" || foreign_type(word).is_some() && (word.starts_with("dvec") || word.starts_with("dmat"));
+    is_it.then(|| format!("`{word}` is not supported: Eddy computes in 32-bit floats"))
+}
+
 /// Returns the type that has this name in another language.
 pub(crate) fn foreign_type(word: &str) -> Option<BasicType> {
     use BasicType::*;
@@ -65,6 +72,15 @@ pub(crate) fn foreign_type(word: &str) -> Option<BasicType> {
         "float2x2" | "half2x2" | "mat2x2f" => Mat2x2,
         "float3x3" | "half3x3" | "mat3x3f" => Mat3x3,
         "float4x4" | "half4x4" | "mat4x4f" => Mat4x4,
+        "dmat2" | "dmat2x2" => Mat2x2,
+        "dmat2x3" => Mat2x3,
+        "dmat2x4" => Mat2x4,
+        "dmat3x2" => Mat3x2,
+        "dmat3" | "dmat3x3" => Mat3x3,
+        "dmat3x4" => Mat3x4,
+        "dmat4x2" => Mat4x2,
+        "dmat4x3" => Mat4x3,
+        "dmat4" | "dmat4x4" => Mat4x4,
         _ => return None,
     })
 }

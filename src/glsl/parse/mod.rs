@@ -13,6 +13,7 @@ mod decl;
 mod expr;
 mod function;
 mod hint;
+mod later;
 mod mistakes;
 mod parser;
 mod recover;
@@ -125,6 +126,9 @@ fn read_here(pieces: &[Piece<'_>], (unit, dialect, cancel): (Unit, Dialect, Canc
     let Preprocessed { mut tokens, origins, macros, pieces: count, is_cut, has_line_numbers, is_stopped } =
         preprocess(pieces, (unit, dialect, cancel), done, &mut names, &mut report);
     brackets::pair(&mut tokens, start);
+    if dialect.is_any() {
+        later::mark_qualifiers(&mut tokens, start, &names);
+    }
     let end = tokens.len() - 1;
     structs.resize(names.len(), false);
     let mut parser = Parser {

@@ -53,6 +53,10 @@ pub(super) struct Parser<'p> {
 /// Section 3.9 does not define the limit; this is WebGL 2's.
 const MAX_NAME: usize = 1024;
 
+/// Variables of the language that a text of later versions may declare again, with other qualifiers (GLSL 4.60, section
+/// 7.1.5).
+const REDECLARED: [&str; 2] = ["gl_FragCoord", "gl_FragDepth"];
+
 /// The depth to which an expression may nest as written, including parentheses. ANGLE's parser keeps at most 10,000
 /// symbols, of which each level takes one or more. The checker limits the depth of its tree.
 pub(super) const MAX_LEVELS: u32 = 10_000;
@@ -215,7 +219,9 @@ impl Parser<'_> {
         let i = self.at;
         let ident = self.ident(what)?;
         let name = self.names.get(ident.symbol);
-        let kept = if name.starts_with("gl_") {
+        let kept = if self.dialect.is_any() && REDECLARED.contains(&name) {
+            None
+        } else if name.starts_with("gl_") {
             Some("names that start with `gl_` are reserved")
         } else if name.starts_with("webgl_") || name.starts_with("_webgl_") {
             Some("names that start with `webgl_` or `_webgl_` are reserved for WebGL")
@@ -265,6 +271,13 @@ impl Parser<'_> {
         }
         self.reported_reserved.push(symbol);
         let word = self.text(i).to_owned();
+        if self.dialect.is_any()
+            && let Some(message) = hint::double_precision(&word)
+        {
+            let meant = hint::foreign_type(&word).map(|ty| format!("write `{}`", ty.name()));
+            self.error(i, message, meant);
+            return;
+        }
         let hint = hint::reserved(&word, self.unit).map_or_else(|| "choose another name".to_owned(), str::to_owned);
         self.error(i, format!("`{word}` is a reserved word of GLSL ES"), Some(hint));
     }

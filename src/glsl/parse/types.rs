@@ -50,7 +50,11 @@ impl Parser<'_> {
         let word = self.text(first).to_owned();
         if let Some(meant) = hint::foreign_type(&word) {
             let hint = format!("write `{}`", meant.name());
-            self.error(first, format!("GLSL has no type `{word}`"), Some(hint));
+            let message = match hint::double_precision(&word) {
+                Some(message) if self.dialect.is_any() => message,
+                _ => format!("GLSL has no type `{word}`"),
+            };
+            self.error(first, message, Some(hint));
             return TypeSpecKind::Basic(meant);
         }
         if hint::is_typeless(&word) {
