@@ -143,6 +143,11 @@ impl Dialect {
         self != Dialect::Shadertoy
     }
 
+    /// Returns whether the elements of an array may be arrays (GLSL 4.30 and GLSL ES 3.10, section 4.1.9).
+    pub(crate) fn has_arrays_of_arrays(self) -> bool {
+        self != Dialect::Shadertoy
+    }
+
     /// Returns the number of `iChannelN`.
     pub(crate) fn channels(self) -> usize {
         if self == Dialect::Ghostty { 1 } else { SLOTS }

@@ -99,8 +99,8 @@ pub enum Type {
     Vector { scalar: Scalar, size: u8 },
     /// A matrix of floats, column-major; `matCxR` has C columns of R rows.
     Matrix { columns: u8, rows: u8 },
-    /// `len` at least 1. ESSL 3.00 has no arrays of arrays, so `element` is not an array (but may be a struct that
-    /// contains one).
+    /// `len` at least 1. In ESSL 3.00, which has no arrays of arrays, `element` is not an array (but may be a struct
+    /// that contains one).
     Array { element: TypeId, len: u32 },
     /// A type that the program defines.
     Struct(StructId),
@@ -122,6 +122,14 @@ impl Default for TypeTable {
         types.push(Type::Error);
         types.extend(BasicType::ALL.iter().map(|&basic| basic_type(basic)));
         Self { types, arrays: FxHashMap::default() }
+    }
+}
+
+/// Returns an array type as GLSL writes it: the sizes of elements that are arrays come after that of the whole.
+pub(crate) fn array_text(element: &str, len: &str) -> String {
+    match element.split_once('[') {
+        Some((base, inner)) => format!("{base}[{len}][{inner}"),
+        None => format!("{element}[{len}]"),
     }
 }
 

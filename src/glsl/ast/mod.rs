@@ -387,8 +387,8 @@ pub enum DeclKind {
 #[derive(Clone, Copy, Debug)]
 pub struct Declarator {
     pub name: Ident,
-    /// Dimensions after the name, outermost first. ESSL 3.00 has no arrays of arrays: the checker counts these together
-    /// with those of the type.
+    /// Dimensions after the name, outermost first; those of the type come after them. ESSL 3.00 has no arrays of
+    /// arrays: the checker counts all of them.
     pub dims: List<Dim>,
     /// `None`: no initialiser (the value is zero). An `Error` expression where one could not be parsed, brace lists
     /// included.

@@ -4,6 +4,7 @@ use super::{call, checker::Checker, fold, types::Size, words::ScalarWords};
 use crate::{
     ast::{self, List, Loc, TypeSpecId, TypeSpecKind},
     hir::{ExprId, ExprKind, Scalar, StructId, Swizzle, Type, TypeId},
+    types,
 };
 
 impl Checker<'_> {
@@ -15,7 +16,8 @@ impl Checker<'_> {
             return self.error_expr(loc);
         }
         let base = self.base_type(spec);
-        let Some((size, at)) = self.sizes(written.dims, List::EMPTY) else {
+        let sizes = self.sizes(written.dims, List::EMPTY);
+        let Some((&(size, at), inner)) = sizes.split_first() else {
             return self.construct_type(base, args, loc);
         };
         if base == TypeId::ERROR || size == Size::Invalid {
@@ -35,17 +37,29 @@ impl Checker<'_> {
             self.error(loc, "an array constructor needs an argument for each element");
             return self.error_expr(loc);
         }
+        // The sizes of elements that are arrays may follow from the first of them.
+        let first = self.ty(self.lowered_expr(self.ast[args][0]));
+        let element = match self.sized_type(base, inner, first) {
+            Ok(element) if element != TypeId::ERROR => element,
+            Err(at) if first != TypeId::ERROR => {
+                let name = self.type_name(base);
+                self.error(at, format!("the elements must be arrays of `{name}`, whose size is not written here"));
+                return self.error_expr(loc);
+            }
+            _ => return self.error_expr(loc),
+        };
+        let of = self.type_name(element);
         if len != count {
-            let name = self.type_name(base);
+            let (name, open) = (types::array_text(&of, &len.to_string()), types::array_text(&self.type_name(base), ""));
             let (needed, given) = (call::count(len as usize, "argument"), call::count_given(count as usize));
-            self.error(loc, format!("`{name}[{len}]` needs {needed}, {given}"));
-            self.hint(format!("write `{name}[](..)` to have them counted"));
-            let ty = self.array_type(base, len, at);
+            self.error(loc, format!("`{name}` needs {needed}, {given}"));
+            self.hint(format!("write `{open}{}(..)` to have them counted", "[]".repeat(inner.len())));
+            let ty = self.array_type(element, len, at);
             return self.error_expr_of(ty, loc);
         }
-        let ty = self.array_type(base, len, at);
-        let message = format!("an element of `{}[]` cannot be {{}}", self.type_name(base));
-        if !self.each_argument(args, |_, _| base, |_, _| message.clone()) {
+        let ty = self.array_type(element, len, at);
+        let message = format!("an element of `{}` cannot be {{}}", types::array_text(&of, ""));
+        if !self.each_argument(args, |_, _| element, |_, _| message.clone()) {
             return self.error_expr_of(ty, loc);
         }
         self.composite(args, ty, loc, ExprKind::Array)

@@ -9,13 +9,12 @@ use super::{
     qualifiers::{DeclContext, LayoutOf, Qualifiers},
     scope::Binding,
     suggest::shadertoy_input,
-    types::Size,
 };
 use crate::{
     ast::{self, DeclKind, Declarator, Field, Ident, List, Loc, Precision, QualifierKind as Q, TypeSpecId},
     hir::{
         ConstId, ExprId, ExprKind, Global, GlobalId, GlobalStorage, Local, LocalId, LocalKind, StmtKind, StructMember,
-        Type, TypeId, VarFlags,
+        TypeId, VarFlags,
     },
 };
 
@@ -97,23 +96,17 @@ impl Checker<'_> {
             self.error(spec.loc, format!("the variable `{name}` cannot be of type `void`"));
             return (TypeId::ERROR, init);
         }
-        let ty = match sizes {
-            None => base,
-            Some((Size::Known(len), at)) => self.array_type(base, len, at),
-            Some((Size::Invalid, _)) => TypeId::ERROR,
-            Some((Size::Unsized, at)) => match init.map(|init| self.module.types.get(self.ty(init))) {
-                Some(Type::Array { len, .. }) => self.array_type(base, len, at),
-                Some(Type::Error) => TypeId::ERROR,
-                _ => {
-                    let element = self.type_name(base);
-                    self.error(
-                        at,
-                        format!("`{name}` needs a size between the brackets, or an initialiser that is an array"),
-                    );
-                    self.hint(format!("write `{element} {name}[] = {element}[](..);`"));
-                    TypeId::ERROR
-                }
-            },
+        let like = init.map_or(TypeId::VOID, |init| self.ty(init));
+        let ty = match self.sized_type(base, &sizes, like) {
+            Ok(ty) => ty,
+            Err(_) if like == TypeId::ERROR => TypeId::ERROR,
+            Err(at) => {
+                let element = self.type_name(base);
+                let message = "needs a size between the brackets, or an initialiser that is an array";
+                self.error(at, format!("`{name}` {message}"));
+                self.hint(format!("write `{element} {name}[] = {element}[](..);`"));
+                TypeId::ERROR
+            }
         };
         (ty, init)
     }

@@ -6,7 +6,6 @@ use super::{
     facts::FuncFacts,
     qualifiers::DeclContext,
     scope::{self, Binding},
-    types::Size,
 };
 use crate::{
     ast::{self, FunctionDeclId, Ident, List, Loc, Precision, StmtKind, Symbol, TokenId, TypeSpecKind},
@@ -197,15 +196,12 @@ impl Checker<'_> {
             }
             let base = self.base_type(param.ty);
             let quals = self.qualifiers(param.qualifiers, DeclContext::Param);
-            let mut ty = match self.sizes(spec.dims, param.dims) {
-                None => base,
-                Some((Size::Known(len), at)) if base != TypeId::VOID => self.array_type(base, len, at),
-                Some((Size::Unsized, at)) => {
-                    self.error(at, "an array parameter needs a size between the brackets");
-                    TypeId::ERROR
-                }
-                Some(_) => TypeId::ERROR,
-            };
+            let sizes = self.sizes(spec.dims, param.dims);
+            let element = if base == TypeId::VOID && !sizes.is_empty() { TypeId::ERROR } else { base };
+            let mut ty = self.sized_type(element, &sizes, TypeId::ERROR).unwrap_or_else(|at| {
+                self.error(at, "an array parameter needs a size between the brackets");
+                TypeId::ERROR
+            });
             if base == TypeId::VOID {
                 self.error(spec.loc, "a parameter cannot be of type `void`");
                 ty = TypeId::ERROR;

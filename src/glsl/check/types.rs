@@ -19,6 +19,9 @@ pub(super) const MANY_MEMBERS: usize = 16;
 /// The maximum nesting depth of structs that WebGL's compiler accepts.
 const MAX_NESTING: u8 = 4;
 
+/// The maximum number of dimensions of an array: functions call themselves for each.
+const MAX_DIMENSIONS: usize = 16;
+
 /// The size of an array as written.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum Size {
@@ -118,14 +121,20 @@ impl<'a> Checker<'a> {
         Size::Known(bits)
     }
 
-    /// Returns the size from the dimensions of a type and of a declarator: at most one in ESSL 3.00.
-    pub(super) fn sizes(&mut self, of_type: List<Dim>, of_name: List<Dim>) -> Option<(Size, Loc)> {
+    /// Returns the sizes from the dimensions of a type and of a declarator, the outermost first: at most one in ESSL
+    /// 3.00. `float[3] a[2]` is an array of two arrays of three (GLSL 4.60, section 4.1.9).
+    pub(super) fn sizes(&mut self, of_type: List<Dim>, of_name: List<Dim>) -> Vec<(Size, Loc)> {
         let ast = self.ast;
-        let mut found = None;
-        for &dim in ast[of_type].iter().chain(&ast[of_name]) {
+        let is_nested = self.settings.dialect.has_arrays_of_arrays();
+        let mut found: Vec<(Size, Loc)> = Vec::new();
+        let mut all: Vec<Dim> = ast[of_name].iter().chain(&ast[of_type]).copied().collect();
+        if !is_nested {
+            all.sort_by_key(|dim| dim.loc.first);
+        }
+        for dim in all {
             let size = self.size(dim);
-            match &mut found {
-                None => found = Some((size, dim.loc)),
+            match found.first_mut().filter(|_| !is_nested) {
+                None => found.push((size, dim.loc)),
                 Some((first, _)) => {
                     if *first != Size::Invalid {
                         self.error(dim.loc, "GLSL ES 3.00 has no arrays of arrays");
@@ -138,17 +147,42 @@ impl<'a> Checker<'a> {
         found
     }
 
+    /// Returns the array type of these sizes, the outermost first; those that are not written are the sizes of a value
+    /// of type `like`. `Err` with the place of one that it does not have.
+    pub(super) fn sized_type(&mut self, base: TypeId, sizes: &[(Size, Loc)], like: TypeId) -> Result<TypeId, Loc> {
+        if let Some(&(_, loc)) = sizes.get(MAX_DIMENSIONS) {
+            self.error(loc, format!("an array can have at most {MAX_DIMENSIONS} dimensions"));
+            return Ok(TypeId::ERROR);
+        }
+        let mut value = Some(like);
+        let mut lengths = Vec::with_capacity(sizes.len());
+        for _ in sizes {
+            let (element, len) = match value.map(|ty| self.module.types.get(ty)) {
+                Some(Type::Array { element, len }) => (Some(element), Some(len)),
+                _ => (None, None),
+            };
+            lengths.push(len);
+            value = element;
+        }
+        let mut ty = base;
+        for (&(size, loc), len) in sizes.iter().zip(lengths).rev() {
+            let len = match size {
+                Size::Known(len) => len,
+                Size::Invalid => return Ok(TypeId::ERROR),
+                Size::Unsized => len.ok_or(loc)?,
+            };
+            ty = self.element_checked(ty, len, loc);
+        }
+        Ok(ty)
+    }
+
     /// Returns a complete type with its dimensions; `[]` is an error described by `what`.
     pub(super) fn complete_type(&mut self, base: TypeId, of_type: List<Dim>, of_name: List<Dim>, what: &str) -> TypeId {
-        match self.sizes(of_type, of_name) {
-            None => base,
-            Some((Size::Known(len), loc)) => self.element_checked(base, len, loc),
-            Some((Size::Invalid, _)) => TypeId::ERROR,
-            Some((Size::Unsized, loc)) => {
-                self.error(loc, format!("{what} needs a size between the brackets"));
-                TypeId::ERROR
-            }
-        }
+        let sizes = self.sizes(of_type, of_name);
+        self.sized_type(base, &sizes, TypeId::ERROR).unwrap_or_else(|loc| {
+            self.error(loc, format!("{what} needs a size between the brackets"));
+            TypeId::ERROR
+        })
     }
 
     fn element_checked(&mut self, element: TypeId, len: u32, loc: Loc) -> TypeId {

@@ -23,7 +23,10 @@
 mod declarations;
 mod ids;
 
-use super::ast::{self, Ident, List, Loc, Symbol, TokenId};
+use super::{
+    ast::{self, Ident, List, Loc, Symbol, TokenId},
+    types,
+};
 pub(crate) use super::{
     builtins::{Builtin, BuiltinVar, Uniform},
     types::{SamplerDim, Scalar, StructId, Swizzle, Type, TypeId, TypeTable},
@@ -155,7 +158,7 @@ impl Module {
     /// Returns a type as GLSL writes it.
     pub fn type_text(&self, names: &ast::Interner, ty: TypeId) -> String {
         match self.types.get(ty) {
-            Type::Array { element, len } => format!("{}[{len}]", self.type_text(names, element)),
+            Type::Array { element, len } => types::array_text(&self.type_text(names, element), &len.to_string()),
             Type::Struct(id) => match self[id].name {
                 Some(name) => names.get(name.symbol).to_owned(),
                 None => "struct {..}".to_owned(),

@@ -96,8 +96,9 @@ fn candidates(module: &Module, min_len: usize) -> Vec<Array> {
 
 /// Counts the members of the structures that are an array's elements.
 fn members(module: &Module, ty: TypeId) -> usize {
-    match module.types.element(ty).map(|element| module.types.get(element)) {
-        Some(Type::Struct(id)) => module[id].members.len(),
+    match module.types.get(ty) {
+        Type::Array { element, .. } => members(module, element),
+        Type::Struct(id) => module[id].members.len(),
         _ => 0,
     }
 }

@@ -383,7 +383,9 @@ impl Parser<'_> {
         let node = match spec.kind {
             TypeSpecKind::Named(name) if !is_array => ExprKind::Call { name, args },
             kind => {
-                let dims = if is_array { self.ast.list(&[Dim { size: None, loc }]) } else { List::EMPTY };
+                // The sizes follow from the values.
+                let dims = vec![Dim { size: None, loc }; spec.dims.len() + dims.len()];
+                let dims = self.ast.list(&dims);
                 ExprKind::Construct { ty: self.ast.type_spec(TypeSpec { kind, dims, loc: spec.loc }), args }
             }
         };
@@ -392,8 +394,10 @@ impl Parser<'_> {
 
     /// Returns the type and the dimensions of a value of a list that initialises a type with dimensions.
     fn part_of_list(&mut self, spec: TypeSpec, dims: List<Dim>, index: usize) -> Option<(TypeSpecId, List<Dim>)> {
-        if !spec.dims.is_empty() || !dims.is_empty() {
-            return Some((self.ast.type_spec(TypeSpec { dims: List::EMPTY, ..spec }), List::EMPTY));
+        let all: Vec<Dim> = self.ast[dims].iter().chain(&self.ast[spec.dims]).copied().collect();
+        if let Some((_, inner)) = all.split_first() {
+            let dims = self.ast.list(inner);
+            return Some((self.ast.type_spec(TypeSpec { dims, ..spec }), List::EMPTY));
         }
         let def = match spec.kind {
             TypeSpecKind::Basic(matrix) => {

@@ -47,7 +47,7 @@ fn add(program: &ir::Module, name: String, ty: TypeId, offset: u32, out: &mut Ve
                 add(program, format!("{name}.{member}"), ty, offset + at, out);
             }
         }
-        Type::Array { element, len } if matches!(program.types.get(element), Type::Struct(_)) => {
+        Type::Array { element, len } if matches!(program.types.get(element), Type::Struct(_) | Type::Array { .. }) => {
             let stride = std140::array_stride(program, element);
             (0..len).for_each(|i| add(program, format!("{name}[{i}]"), element, offset + i * stride, out));
         }

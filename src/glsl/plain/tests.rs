@@ -362,6 +362,44 @@ fn tables_and_work_arounds_need_no_buffer() {
 }
 
 #[test]
+fn arrays_of_arrays_have_std140_strides() {
+    let text = "
+        struct S { float x; vec2 y[2]; };
+        uniform float w[2][3];
+        uniform vec4[2] v[3];
+        uniform S s[2][2];
+        uniform bool flags[1][2][2];
+        uniform int n;
+        out vec4 color;
+        float sum(float[3] row) { return row[0] + row[1] + row[2]; }
+        void main() {
+            vec4[2] copies[3] = v;
+            float[3] rows[2] = w;
+            S all[2][2] = s;
+            color = vec4(sum(w[n]) + rows[n][1], w[1][n], all[n][1].y[n].x + s[1][n].x, flags[0][n][1] == flags[0][1][0]);
+            color += copies[n][1] + v[2][n];
+        }";
+    for opaque_uniforms in [false, true] {
+        let dialect = crate::Dialect::Any(crate::Version { number: 310, is_es: true });
+        let mut source = PassSource { dialect, ..PassSource::fragment(text) };
+        source.driver.opaque_uniforms = opaque_uniforms;
+        let (compiled, _) = compile_checked(&source);
+        let members = uniforms(&compiled.reflection);
+        for member in [
+            "w[0]: float[3] @ 0 + 48",
+            "w[1]: float[3] @ 48 + 48",
+            "v[2]: vec4[2] @ 160 + 32",
+            "s[0][1].x: float @ 240 + 4",
+            "s[1][1].y: vec2[2] @ 352 + 32",
+            "flags[0][1]: bool[2] @ 416 + 32",
+            "n: int @ 448 + 4",
+        ] {
+            assert!(members.iter().any(|found| found == member), "{member}: {members:#?}");
+        }
+    }
+}
+
+#[test]
 fn every_uniform_may_be_hidden_from_the_driver() {
     let mut source = PassSource::fragment(
         "struct S { bool on; mat2 turn; float w[2]; };

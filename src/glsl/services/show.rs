@@ -6,6 +6,7 @@ use crate::{
     builtins::{Overload, Pattern},
     check::env,
     hir::{Builtin, ConstId, DeclRef, FuncId, GlobalStorage, LocalKind, Scalar, StructId, Type, TypeId},
+    types,
 };
 use std::ops::Range;
 
@@ -17,7 +18,7 @@ const MAX_MEMBERS: usize = 24;
 impl Analysis {
     pub(super) fn type_name(&self, ty: TypeId) -> String {
         match self.module.types.get(ty) {
-            Type::Array { element, len } => format!("{}[{len}]", self.type_name(element)),
+            Type::Array { element, len } => types::array_text(&self.type_name(element), &len.to_string()),
             Type::Struct(id) => match self.module[id].name {
                 Some(name) => self.names.get(name.symbol).to_owned(),
                 None => "struct".to_owned(),

@@ -1,4 +1,5 @@
-//! Functions of GLSL 4.00 and later (sections 8.3, 8.4, 8.8 and 8.9 of GLSL 4.60), with values from the specification.
+//! Functions of GLSL 4.00 and later (sections 8.3, 8.4, 8.8 and 8.9 of GLSL 4.60), with values from the specification;
+//! arrays of arrays (section 4.1.9).
 
 use super::{tests::*, *};
 use crate::{
@@ -180,4 +181,60 @@ fn fine_derivatives_are_of_the_pixel_and_coarse_ones_of_the_quad() {
         let walkable = walkable_of(LATER, &code);
         assert_eq!(run::<f32>(&walkable, &Bare::default(), (3, 3)), Ok(wanted), "{call}");
     }
+}
+
+#[test]
+fn arrays_of_arrays_are_indexed_level_by_level() {
+    // An element has its indices as digits; `b` has two arrays of three, as `float[3] b[2]` means.
+    let declarations = "
+        struct S { int before; float[3] of[2]; int after; };
+        const float[3] c[2] = {{0.0, 1.0, 2.0}, {10.0, 11.0, 12.0}};
+        float g[2][3] = float[2][3](float[3](0.0, 1.0, 2.0), float[](10.0, 11.0, 12.0));
+        int cube[2][3][4];
+        float sum(float[3] row) { float s = 0.0; for (int i = 0; i < row.length(); ++i) s += row[i]; return s; }
+        float[2][3] doubled(float[3] all[2]) { for (int i = 0; i < 6; ++i) all[i / 3][i % 3] *= 2.0; return all; }
+        void swap(inout float all[2][3]) { float[3] first = all[0]; all[0] = all[1]; all[1] = first; }
+        float swapped(int i, int j) { float copy[2][3] = g; swap(copy); return copy[i][j]; }
+        int cubed(int i, int j, int k) {
+            for (int n = 0; n < 24; ++n) cube[n / 12][n / 4 % 3][n % 4] = 100 * (n / 12) + 10 * (n / 4 % 3) + n % 4;
+            int plane[3][4] = cube[i];
+            return plane[j][k];
+        }
+        int lengths() { return 100 * cube.length() + 10 * cube[0].length() + cube[0][0].length(); }
+        bool is_equal(float changed) { float other[2][3] = c; other[1][2] += changed; return other == g && c != doubled(g); }
+        float member(int i, int j) { S s = S(7, c, 8); s.of[i][j] += 0.5; return s.of[i][j] + float(s.before * s.after); }
+        vec2 of_vectors(int i) { vec2 v[2][2]; v[1][i].yx = vec2(3, 4); v[i][1] += 1.0; return v[1][i] + v[i][1]; }
+        ";
+    assert_all(
+        declarations,
+        &[
+            "c[Z][2] == 2.0 && c[1][Z] == 10.0 && c[1 + Z][1 + Z] == 11.0 && c.length() == 2 && c[Z].length() == 3",
+            "g[Z][2] == 2.0 && g[1][Z] == 10.0 && g[1 + Z][1 + Z] == 11.0 && sum(g[1 + Z]) == 33.0 && sum(c[Z]) == 3.0",
+            "doubled(c)[1 + Z][2 + Z] == 24.0 && doubled(g)[Z][1] == 2.0 && g[1][2 + Z] == 12.0",
+            "swapped(Z, 1) == 11.0 && swapped(1 + Z, Z) == 0.0",
+            "cubed(1, 2, 3 + Z) == 123 && cubed(Z, 1, 2) == 12 && cubed(1 + Z, Z, 3) == 103 && lengths() == 234",
+            "is_equal(FZ) && !is_equal(FZ + 1.0) && member(1, 2 + Z) == 68.5 && member(Z, Z) == 56.5",
+            "of_vectors(1 + Z) == vec2(10, 8) && of_vectors(Z) == vec2(5, 4)",
+        ],
+    );
+}
+
+#[test]
+fn long_arrays_of_arrays_are_tables() {
+    let list = |of: &dyn Fn(usize) -> String, count: usize| (0..count).map(of).collect::<Vec<_>>().join(", ");
+    let row = |i: usize| format!("{{{}}}", list(&|j| format!("{}.0", 100 * i + j), 20));
+    let stores: String = (0..400).map(|i| format!("f[{}][{}] = vec2({i}, {});\n", i / 20, i % 20, 2 * i)).collect();
+    let declarations = format!(
+        "const float t[20][20] = {{{}}};\nvec2 f[20][20];\n\
+         float at(int i, int j) {{ return t[i][j]; }}\n\
+         vec2 late(int i, int j) {{ {stores} return f[i][j]; }}\n",
+        list(&row, 20)
+    );
+    assert_all(
+        &declarations,
+        &[
+            "at(19 + Z, Z) == 1900.0 && at(Z, 19) == 19.0 && at(7, 13 + Z) == 713.0 && at(99 + Z, 99 + Z) == 1919.0",
+            "late(19, 19 + Z) == vec2(399, 798) && late(3 + Z, 5 + Z) == vec2(65, 130)",
+        ],
+    );
 }
