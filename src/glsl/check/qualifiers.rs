@@ -92,6 +92,14 @@ fn fits(kind: Q, place: DeclContext) -> bool {
     }
 }
 
+/// Returns whether a layout is a format of an image (GLSL 4.60, section 4.4.6.2).
+fn is_format(name: &str) -> bool {
+    let kind = name.trim_end_matches("_snorm").trim_end_matches("ui").trim_end_matches(['f', 'i']);
+    let (channels, bits) = kind.split_at(kind.find(|c: char| c.is_ascii_digit()).unwrap_or(kind.len()));
+    let is_usual = matches!(channels, "r" | "rg" | "rgba") && matches!(bits, "8" | "16" | "32");
+    is_usual || matches!(kind, "rgb10_a2" | "r11f_g11f_b10")
+}
+
 impl Checker<'_> {
     pub(super) fn qualifiers(&mut self, list: List<Qualifier>, place: DeclContext) -> Qualifiers {
         let mut out = Qualifiers::default();
@@ -101,7 +109,7 @@ impl Checker<'_> {
             let Qualifier { kind, token } = qualifier;
             // Blocks of inputs have members with interpolation qualifiers (GLSL 1.50, section 4.3.7).
             let is_of_input = place == DeclContext::Block && self.settings.dialect.is_any();
-            if !fits(kind, place) && !(is_of_input && fits(kind, DeclContext::Global)) {
+            if !(fits(kind, place) || is_of_input && fits(kind, DeclContext::Global)) {
                 self.misplaced(kind, token, place);
                 continue;
             }
@@ -283,7 +291,10 @@ impl Checker<'_> {
                     self.hint("write `std140`");
                     continue;
                 }
-                _ if self.settings.dialect.is_any() && name.starts_with("blend_support") => continue,
+                // A format of an image, whose type is rejected.
+                _ if self.settings.dialect.is_any() && (name.starts_with("blend_support") || is_format(name)) => {
+                    continue;
+                }
                 _ => {
                     self.error(item.name, format!("GLSL ES 3.00 has no layout `{name}`"));
                     continue;
@@ -323,10 +334,11 @@ impl Checker<'_> {
         if !input && !output {
             return;
         }
-        let scalar = self.module.types.scalar(match self.module.types.get(ty) {
-            Type::Array { element, .. } => element,
-            _ => ty,
-        });
+        let mut part = ty;
+        while let Type::Array { element, .. } = self.module.types.get(part) {
+            part = element;
+        }
+        let scalar = self.module.types.scalar(part);
         let is_vertex = self.env.is_vertex();
         let word = if input { "input" } else { "output" };
         if self.facts(ty).opaque || scalar == Some(Scalar::Bool) || (output && self.struct_of(ty).is_some()) {

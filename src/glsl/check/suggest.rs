@@ -153,24 +153,22 @@ const VARIABLES: &[(&str, &str)] = &[
 
 /// Returns what Eddy does not have for a type of later versions of GLSL, and how to do without it.
 fn unsupported_type(name: &str) -> Option<(&'static str, &'static str)> {
-    let rest = name.strip_prefix(['i', 'u']).unwrap_or(name);
-    Some(match rest {
-        "atomic_uint" | "atomic_uint " => ("atomic counters", "count in a buffer, one texel for each counter"),
-        _ if rest.starts_with("image") => {
-            ("images that shaders write", "write to the output of a pass, and read it with `texelFetch`")
-        }
+    let of_ints = name.strip_prefix(['i', 'u']).filter(|rest| rest.starts_with("image") || rest.starts_with("sampler"));
+    Some(match of_ints.unwrap_or(name) {
+        "atomic_uint" => ("atomic counters", "count in a buffer, one texel for each counter"),
         "sampler2DMS" | "sampler2DMSArray" => ("multisampled textures", "write `sampler2D`"),
         "samplerBuffer" | "sampler2DRect" => {
             ("textures of this kind", "write `sampler2D`, and read it with `texelFetch`")
         }
-        "sampler1DArray"
-        | "samplerCubeArray"
-        | "sampler1DShadow"
-        | "sampler1DArrayShadow"
-        | "samplerCubeArrayShadow"
-        | "sampler2DRectShadow" => ("textures of this kind", "write `sampler2D`"),
-        "nt64_t" | "int64_t" | "nt16_t" | "int16_t" | "nt8_t" | "int8_t" => {
+        "sampler1DArray" | "samplerCubeArray" => ("textures of this kind", "write `sampler2D`"),
+        "sampler1DShadow" | "sampler1DArrayShadow" | "samplerCubeArrayShadow" | "sampler2DRectShadow" => {
+            ("textures of this kind", "write `sampler2D`")
+        }
+        "int64_t" | "uint64_t" | "int16_t" | "uint16_t" | "int8_t" | "uint8_t" => {
             ("integers of other sizes than 32 bits", "write `int` or `uint`")
+        }
+        other if other.starts_with("image") => {
+            ("images that shaders write", "write to the output of a pass, and read it with `texelFetch`")
         }
         _ => return None,
     })

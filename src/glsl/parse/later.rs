@@ -13,6 +13,9 @@ use crate::{
 const QUALIFIERS: [(&str, Kind); 3] =
     [("precise", Kind::Precise), ("sample", Kind::Centroid), ("noperspective", Kind::Smooth)];
 
+/// Qualifiers of images and storage blocks.
+const MEMORY: [&str; 4] = ["coherent", "restrict", "readonly", "writeonly"];
+
 /// Marks names that are qualifiers, in the tokens from `start` on.
 pub(super) fn mark_qualifiers(tokens: &mut [Tok], start: usize, names: &Interner) {
     let known = QUALIFIERS.map(|(name, kind)| (names.find(name), kind));
@@ -46,16 +49,33 @@ impl Parser<'_> {
         if !self.dialect.is_any() || self.kind() != Kind::Ident {
             return Ok(());
         }
-        let (message, hint) = match (self.text(self.at), self.second()) {
-            ("buffer", Kind::Ident) if self.kind_at(self.at + 2) == Kind::LBrace => {
+        let is_name = |parser: &Self, at: usize| parser.kind_at(at) == Kind::Ident;
+        let mut at = self.at;
+        while is_name(self, at) && MEMORY.contains(&self.text(at)) && is_name(self, at + 1) {
+            at += 1;
+        }
+        let (message, hint) = match (self.text(at), self.kind_at(at + 1)) {
+            ("buffer", Kind::Ident) if self.kind_at(at + 2) == Kind::LBrace => {
                 ("shader storage blocks are not supported", "read a texture or a uniform, and write to the output")
             }
             ("subroutine", Kind::Type | Kind::Ident | Kind::LParen | Kind::Uniform) => {
                 ("subroutines are not supported", "call a function directly, or choose one with `switch`")
             }
+            (word, _) if at > self.at && word.trim_start_matches(['i', 'u']).starts_with("mage") => (
+                "images that shaders write are not supported",
+                "write to the output of a pass, and read it with `texelFetch`",
+            ),
             _ => return Ok(()),
         };
-        Err(self.fail(self.at, message, Some(hint.to_owned())))
+        let failed = self.fail(at, message, Some(hint.to_owned()));
+        // The members of a block, and the name after them.
+        if self.kind_at(at + 2) == Kind::LBrace
+            && let Some(end) = self.partner(at + 2)
+        {
+            self.at = end;
+            self.bump();
+        }
+        Err(failed)
     }
 
     /// Returns whether a declaration of a subroutine follows.

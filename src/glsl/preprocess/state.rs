@@ -164,12 +164,12 @@ impl<'a, 'r> Preprocessor<'a, 'r> {
     }
 
     /// Turns keywords that GLSL 1.30 and later versions add into names where they cannot be keywords: an interpolation
-    /// qualifier comes before other qualifiers.
+    /// qualifier comes before other qualifiers or a type.
     fn free_later_keywords(&mut self) {
         for i in self.earlier..self.tokens.len() {
             let next = self.tokens.get(i + 1).map_or(Kind::Eof, |token| token.kind);
             let is_keyword = match self.tokens[i].kind {
-                Kind::Flat | Kind::Smooth | Kind::Centroid => next.is_qualifier(),
+                Kind::Flat | Kind::Smooth | Kind::Centroid => next.is_qualifier() || next == Kind::Type,
                 _ => true,
             };
             if !is_keyword {

@@ -4,6 +4,7 @@ mod corpus;
 mod dialects;
 mod given;
 mod later;
+mod later_syntax;
 mod names;
 mod nesting;
 mod promises;
