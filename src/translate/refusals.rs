@@ -2,13 +2,19 @@
 
 use eddy_diag::{Diagnostic, SourceMap, Span};
 use eddy_glsl::naga;
-use naga::ir::{Expression, Function, MathFunction};
+use naga::ir::{Expression, Function, MathFunction, TypeInner};
 
 use crate::{GlslVersion, Language};
 
 /// Returns an error for code that a writer would write although no compiler of the language accepts it.
 pub(crate) fn of_module(module: &naga::Module, language: Language, pass: &PassTexts<'_>) -> Option<Diagnostic> {
     let Language::Glsl(version) = language else { return None };
+    let newer = GlslVersion::Desktop450.key();
+    let hint = format!("write GLSL {newer} (--glsl-version {newer})");
+    if version == GlslVersion::Es300 && has_arrays_of_arrays(module) {
+        let message = format!("{} cannot be written as {language}, which has no arrays of arrays", pass.title);
+        return Some(Diagnostic::error(None, message).hint(hint));
+    }
     let missing = |e: &Expression| match later_function(e) {
         Some(name) if version != GlslVersion::Desktop450 => Some(name),
         _ if version.has_packing() => None,
@@ -16,8 +22,15 @@ pub(crate) fn of_module(module: &naga::Module, language: Language, pass: &PassTe
     };
     let used = functions(module).find_map(|function| function.expressions.iter().find_map(|(_, e)| missing(e)))?;
     let message = format!("{} cannot be written as {language}, which has no `{used}`", pass.title);
-    let newer = GlslVersion::Desktop450.key();
-    Some(Diagnostic::error(pass.word(used), message).hint(format!("write GLSL {newer} (--glsl-version {newer})")))
+    Some(Diagnostic::error(pass.word(used), message).hint(hint))
+}
+
+/// Returns whether a module has arrays of arrays, which came with GLSL ES 3.10 and extensions of desktop GLSL.
+fn has_arrays_of_arrays(module: &naga::Module) -> bool {
+    module.types.iter().any(|(_, ty)| match ty.inner {
+        TypeInner::Array { base, .. } => matches!(module.types[base].inner, TypeInner::Array { .. }),
+        _ => false,
+    })
 }
 
 fn functions(module: &naga::Module) -> impl Iterator<Item = &Function> {

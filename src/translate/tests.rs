@@ -186,3 +186,20 @@ fn custom_uniforms_have_offsets_and_values() {
     );
     assert_eq!(own[1].value, [1.0, 0.5, 0.0]);
 }
+
+#[test]
+fn arrays_of_arrays_need_a_later_version_of_es() {
+    let rows: Vec<String> = (0..20).map(|n| format!("{{{}}}", vec![n.to_string(); 20].join(", "))).collect();
+    let shader = format!(
+        "const float t[20][20] = {{{}}};\nfloat a[2][3];\n\
+         void mainImage(out vec4 o, in vec2 p) {{ int i = int(p.x) % 2; a[i][i] = t[i][int(p.y)]; o = vec4(a[1][1]); }}",
+        rows.join(", ")
+    );
+    let project = Project { dialect: eddy_project::Dialect::Plain, ..image(&shader) };
+    let others = [GlslVersion::Desktop330, GlslVersion::Desktop410].map(Language::Glsl);
+    for language in Language::ALL.into_iter().chain(others) {
+        translate(&project, language).unwrap_or_else(|e| panic!("{language}: {e:?}"));
+    }
+    let errors = translate(&project, Language::Glsl(GlslVersion::Es300)).expect_err("refused");
+    assert!(errors[0].message.ends_with("which has no arrays of arrays"), "{errors:?}");
+}
