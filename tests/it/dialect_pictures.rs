@@ -46,7 +46,6 @@ const DIFFERENCES: &[(&str, &str)] = &[
     ("bonzomatic/texture", "the same"),
     ("isf/input_defaults", "Eddy accepts a default outside the range, and takes the minimum for a missing one"),
     ("isf/missing_bool", "a bool without a default is false"),
-    ("plain/upper_left", "`gl_FragCoord` cannot be declared again"),
 ];
 
 /// The inputs that the comments of a program set.
