@@ -274,7 +274,7 @@ pub(super) fn name(source: &PassSource<'_>, found: &[Diagnostic]) -> Option<Diag
         // The text of the file is included.
         PassKind::Main(_) => {
             let file = source.includes.iter().filter(|include| include.line.source == source.code.id);
-            let code = file.filter_map(|include| include.text.ok()).last().unwrap_or(source.code);
+            let code = file.filter_map(|include| include.text.ok()).next_back().unwrap_or(source.code);
             return name_of_main(code, found);
         }
         PassKind::Image | PassKind::Buffer => "mainImage",

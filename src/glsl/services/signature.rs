@@ -118,7 +118,7 @@ impl Analysis {
                     // The arguments before the one at the caret are complete.
                     let whole = &args[..args.len().min(parameter)];
                     let takes = |o: &Overload| o.params.len() > parameter && o.accepts_first(whole, types);
-                    let best = all.iter().position(|o| takes(&o));
+                    let best = all.iter().position(|o| takes(o));
                     let active = best.or_else(|| all.iter().position(|o| o.params.len() > parameter)).unwrap_or(0);
                     let signatures = all.iter().map(|o| show::overload_text(builtin, o));
                     let signatures = signatures.map(|(label, params)| Signature { label, params }).collect();

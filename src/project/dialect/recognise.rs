@@ -109,7 +109,7 @@ fn of_main(text: &str, words: &HashSet<&str>) -> Dialect {
     let is_later = text.lines().any(|line| line.trim_start().starts_with("#version") && !line.contains("100"));
     let is_possible = |marks: &&Marks| marks.dialect != Dialect::GlslSandbox || !is_later;
     let mut possible = MARKS.iter().filter(is_possible);
-    let likely = possible.find(|marks| marks.likely.iter().any(|name| is_declared(&name)));
+    let likely = possible.find(|marks| marks.likely.iter().any(&is_declared));
     likely.map_or(Dialect::Plain, |marks| marks.dialect)
 }
 
@@ -125,9 +125,9 @@ pub(super) fn is_sound(text: &str) -> bool {
 /// the position of the pixel or the short names of the uniforms.
 fn is_geekest(text: &str, words: &HashSet<&str>) -> bool {
     let has = |word: &&str| words.contains(*word);
-    let has_output = ["o", "o0", "gl_FragColor"].iter().any(|word| has(word));
-    let has_position = ["FC", "gl_FragCoord"].iter().any(|word| has(word));
+    let has_output = ["o", "o0", "gl_FragColor"].iter().any(&has);
+    let has_position = ["FC", "gl_FragCoord"].iter().any(&has);
     // A file of functions for others to include, or a pass of another program.
-    let has_function = ["return", "void", "in", "out", "inout", "uniform"].iter().any(|word| has(word));
+    let has_function = ["return", "void", "in", "out", "inout", "uniform"].iter().any(has);
     has_output && has_position && !has_function && text.contains('=')
 }

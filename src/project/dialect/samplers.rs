@@ -40,7 +40,7 @@ pub(crate) fn declared_uniforms(text: &str) -> Vec<DeclaredUniform> {
         let mut ty = None;
         let mut declared: Vec<(&str, &str, usize, bool)> = Vec::new();
         let mut is_named = false;
-        while let Some((at, word)) = words.next() {
+        for (at, word) in words.by_ref() {
             match (word, ty) {
                 ("highp" | "mediump" | "lowp" | "coherent" | "restrict", _) => {}
                 (";" | "{" | "(" | "#", _) => break,
