@@ -545,19 +545,6 @@ macro_rules! basic_types {
     };
 }
 
-impl BasicType {
-    /// Returns the type of a matrix's columns.
-    pub fn column(self) -> Option<BasicType> {
-        use BasicType::*;
-        Some(match self {
-            Mat2x2 | Mat3x2 | Mat4x2 => Vec2,
-            Mat2x3 | Mat3x3 | Mat4x3 => Vec3,
-            Mat2x4 | Mat3x4 | Mat4x4 => Vec4,
-            _ => return None,
-        })
-    }
-}
-
 basic_types! {
     Void = "void";
     Bool = "bool";

@@ -6,8 +6,8 @@ use super::{
 };
 use crate::{
     ast::{
-        DeclId, DeclKind, Declarator, Dim, ExprId, ExprKind, LayoutItem, List, Precision, Qualifier, QualifierKind,
-        StructDef, TypeSpec, TypeSpecId, TypeSpecKind,
+        BasicType, DeclId, DeclKind, Declarator, Dim, ExprId, ExprKind, LayoutItem, List, Precision, Qualifier,
+        QualifierKind, StructDef, TypeSpec, TypeSpecId, TypeSpecKind,
     },
     lex::Kind,
 };
@@ -401,7 +401,7 @@ impl Parser<'_> {
         }
         let def = match spec.kind {
             TypeSpecKind::Basic(matrix) => {
-                let column = TypeSpecKind::Basic(matrix.column()?);
+                let column = TypeSpecKind::Basic(column_of(matrix)?);
                 return Some((self.ast.type_spec(TypeSpec { kind: column, ..spec }), List::EMPTY));
             }
             TypeSpecKind::Named(name) => {
@@ -440,4 +440,15 @@ impl Parser<'_> {
             }
         }
     }
+}
+
+/// Returns the type of a matrix's columns.
+fn column_of(matrix: BasicType) -> Option<BasicType> {
+    use BasicType::*;
+    Some(match matrix {
+        Mat2x2 | Mat3x2 | Mat4x2 => Vec2,
+        Mat2x3 | Mat3x3 | Mat4x3 => Vec3,
+        Mat2x4 | Mat3x4 | Mat4x4 => Vec4,
+        _ => return None,
+    })
 }

@@ -198,7 +198,7 @@ fn arrays_have_arrays() {
         ("float[3][2] a; float b[2][3] = a;", "cannot initialise the `float[2][3]` `b` with `float[3][2]`"),
         ("float a[2][];", "`a` needs a size between the brackets, or an initialiser that is an array"),
         ("float a[2][2] = {{1, 2}, {3}};", "an element of `float[][2]` cannot be `float[1]`"),
-        ("float a[2][2] = float[3][2](float[](1, 2));", "`float[3][2]` needs 3 arguments, 1 given"),
+        ("float a[2][2] = float[3][2](float[](1, 2));", "`float[3][2]` needs 3 arguments, 1 is given"),
         (&format!("float a{};", "[1]".repeat(20_000)), "an array can have at most 16 dimensions"),
         (&format!("float a{0} = float{0}(p.x);", "[1]".repeat(17)), "an array can have at most 16 dimensions"),
         ("float a[3000][3000];", "this array takes 35 MiB; the limit is 16 MiB"),
