@@ -81,7 +81,7 @@ pub(crate) fn insert_bits(bits: u32, new: u32, offset: u32, count: u32) -> u32 {
     }
 }
 
-/// Whether a part lies within the 32 bits.
+/// Returns whether a part lies within the 32 bits.
 fn is_within(offset: u32, count: u32) -> bool {
     offset <= 32 && count <= 32 && offset + count <= 32
 }

@@ -9,8 +9,6 @@
 mod compute;
 mod gather;
 mod inputs;
-#[cfg(test)]
-mod later_tests;
 mod layout;
 mod machine;
 mod math;

@@ -126,7 +126,8 @@ pub(super) fn declarations<'t>(tokens: &[Token<'t>], lines: &[Line<'t>]) -> Decl
                 state.braces.push(is_body);
             }
             "}" => {
-                if state.braces.pop() == Some(true) && state.braces.is_empty() {
+                let is_end_of_body = state.braces.pop() == Some(true) && state.braces.is_empty();
+                if is_end_of_body {
                     function(tokens, &state.current, state.body..at, &mut found);
                     state = State::default();
                     continue;

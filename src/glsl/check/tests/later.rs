@@ -1,4 +1,4 @@
-//! What versions of GLSL after ES 3.00 add, in texts of any version; and that it is not in Shadertoy's language.
+//! Features of versions of GLSL after ES 3.00, in texts of any version; Shadertoy's language does not have them.
 
 use super::dialects::{body, errors, source};
 use crate::{Dialect, Version, compile, diagnose, hir::Builtin};

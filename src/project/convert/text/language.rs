@@ -36,12 +36,12 @@ impl<'t> Writer<'_, 't> {
             }
             let Some(ty) = words.get(1).filter(|ty| ty.starts_with(is_letter)) else { continue };
             let mut depth = 0;
-            for place in at..tokens.len() {
-                if tokens[place].is("{") {
+            for (place, token) in tokens.iter().enumerate().skip(at) {
+                if token.is("{") {
                     let outer = if depth == 0 && is_array { format!("{ty}[](") } else { format!("{ty}(") };
                     self.replaced.insert(place, outer);
                     depth += 1;
-                } else if tokens[place].is("}") {
+                } else if token.is("}") {
                     self.replaced.insert(place, ")".to_owned());
                     depth -= 1;
                     if depth == 0 {

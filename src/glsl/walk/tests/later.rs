@@ -1,7 +1,7 @@
 //! Functions of GLSL 4.00 and later (sections 8.3, 8.4, 8.8 and 8.9 of GLSL 4.60), with values from the specification;
 //! arrays of arrays (section 4.1.9).
 
-use super::{tests::*, *};
+use super::*;
 use crate::{
     Dialect, Version,
     interface::{GeometryBlock, UniformBlock},

@@ -1,3 +1,5 @@
+mod later;
+
 use super::{number::Float, *};
 use crate::{
     Dialect, Link, PassKind, PassSource, Text,
