@@ -64,21 +64,21 @@ const LONG_ARRAYS: &[(&str, &str, Texel)] = &[
     (
         "an array in each call and in each iteration",
         "float count(int at, int rounds) {
-            int a[300];
+            int a[160];
             if (at > 1000) return 1.;
-            for (int i = 0; i < rounds; i++) a[(at + i * i) % 300]++;
+            for (int i = 0; i < rounds; i++) a[(at + i * i) % 160]++;
             int sum = 0;
-            for (int i = 0; i < 300; i++) sum += a[i];
+            for (int i = 0; i < 160; i++) sum += a[i];
             return float(sum);
         }
         void mainImage(out vec4 o, in vec2 p) {
             o = vec4(0);
             for (int k = 0; k < 3; k++) {
                 o.x += count(int(p.x) + k, int(p.y));
-                float b[200];
+                float b[120];
                 b[int(p.x)]++;
                 b[int(p.y)]++;
-                for (int i = 0; i < 200; i++) o.y += b[i];
+                for (int i = 0; i < 120; i++) o.y += b[i];
                 o.z = max(o.z, b[int(p.x)]);
             }
             o.z += 10. * count(int(p.y), 5);
@@ -141,10 +141,10 @@ const LONG_ARRAYS: &[(&str, &str, Texel)] = &[
     ),
     (
         "a parameter that is written, and a result",
-        "float count(float a[150], int at) { a[at]++; float s = 0.; for (int i = 0; i < 150; i++) s += a[i]; return s; }
-        float[150] moved(float a[150], int at) { if (at > 1000) return a; a[at] = 9.; return a; }
+        "float count(float a[110], int at) { a[at]++; float s = 0.; for (int i = 0; i < 110; i++) s += a[i]; return s; }
+        float[110] moved(float a[110], int at) { if (at > 1000) return a; a[at] = 9.; return a; }
         void mainImage(out vec4 o, in vec2 p) {
-            float a[150];
+            float a[110];
             a[int(p.x)] = 2.;
             o.x = count(a, int(p.y));
             o.y = count(a, int(p.y)) + count(moved(a, int(p.y)), 0);

@@ -39,7 +39,8 @@ const MARKS: [Marks; 5] = [
     Marks {
         dialect: Dialect::GlslViewer,
         certain: &["u_resolution", "u_time", "u_mouse", "u_tex0", "u_buffer0", "u_doubleBuffer0", "u_scene", "u_frame"],
-        likely: &["u_delta", "u_date", "u_pixelDensity"],
+        // The uniforms of its row.
+        likely: &[],
     },
     // The inputs of shaders for compositors such as Hyprland, which may have a `time`, too.
     Marks { dialect: Dialect::Plain, certain: &["v_texcoord", "v_texCoord", "vTexCoord"], likely: &[] },
@@ -99,11 +100,19 @@ fn of_main(text: &str, words: &HashSet<&str>) -> Dialect {
     if !has("uniform") && has_short_names && ["FC", "gl_FragCoord"].into_iter().any(has) {
         return Dialect::Twigl;
     }
+    let declared = declared_uniforms(text);
+    let row = Dialect::GlslViewer.row();
+    let is_of_row = |name: &str| {
+        let is_set = row.uniforms.iter().any(|uniform| uniform.name == name);
+        name.starts_with("u_") && (is_set || row.identities.iter().any(|(matrix, _)| *matrix == name))
+    };
+    if declared.iter().any(|uniform| is_of_row(&uniform.name)) {
+        return Dialect::GlslViewer;
+    }
     let certain = MARKS.iter().find(|marks| marks.certain.iter().any(|word| words.contains(word)));
     if let Some(marks) = certain {
         return marks.dialect;
     }
-    let declared = declared_uniforms(text);
     let is_declared = |name: &&str| declared.iter().any(|uniform| uniform.name == **name);
     // GLSL Sandbox runs WebGL 1.
     let is_later = text.lines().any(|line| line.trim_start().starts_with("#version") && !line.contains("100"));

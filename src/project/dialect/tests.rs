@@ -39,6 +39,9 @@ fn programs_are_recognised_by_their_names() {
         (main("#version 300 es\nuniform float time;"), Dialect::Plain),
         (main("varying vec2 v_texcoord; uniform sampler2D tex; uniform float time;"), Dialect::Plain),
         (main("varying vec2 v_texcoord; uniform float u_time;"), Dialect::GlslViewer),
+        (main("varying vec2 v_texcoord; uniform mat3 u_normalMatrix;"), Dialect::GlslViewer),
+        (main("uniform vec3 u_camera;"), Dialect::GlslViewer),
+        (main("varying vec2 v_texcoord; uniform float u_amount;"), Dialect::Plain),
         // Names in comments do not count.
         (main("// u_resolution, fGlobalTime"), Dialect::Plain),
         (format!("// uniform vec2 u_resolution; void main()\n{image}"), Dialect::Shadertoy),
