@@ -53,6 +53,7 @@ impl Session {
             Command::Canvas(CanvasCommand::Hide(is_hidden)) => services.audio.hide(open, is_hidden),
             Command::Canvas(command) => open.apply_canvas(command),
             Command::Input(InputCommand::Focus(is_focused)) => open.focus(is_focused),
+            Command::Input(InputCommand::MouseMove { .. }) if !open.follows_pointer() => {}
             Command::Input(command) => open.playback.apply(command),
             Command::Sound(command) => services.audio.apply(open, command),
             Command::Control(command) => services.controls.apply(open, command),

@@ -220,6 +220,12 @@ impl OpenProject {
         self.changes.program().is_some() && reach.is_whole && self.keeps_inputs_of(reach)
     }
 
+    /// Returns whether a move of the pointer is an input: a button is down, or the project's program gives its position
+    /// to the shader at all times.
+    pub(super) fn follows_pointer(&self) -> bool {
+        self.playback.mouse.is_down() || self.documents.current().dialect.row().reads_pointer()
+    }
+
     pub(super) fn has_state(&self) -> bool {
         // A project that was opened paused has no program yet.
         let project = self.engine.project().unwrap_or_else(|| self.documents.current());

@@ -55,7 +55,7 @@ fn particles_carry_the_eddies_and_keep_their_density() {
             let places = running.read("sorted").unwrap().component(0);
             places.iter().filter(|x| (0.0..1.0).contains(*x)).count() as f64 / (64.0 * 64.0)
         };
-        let counts = [1, 63, 192].map(&mut per_cell);
+        let counts = [1, 63, 64].map(&mut per_cell);
         println!("{name}: {counts:.2?} particles to a cell");
         assert!(counts.iter().all(|count| (3.9..6.5).contains(count)), "{name}: {counts:?}");
     }

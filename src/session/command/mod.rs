@@ -185,7 +185,7 @@ pub enum InputCommand {
     /// The pointer in canvas pixels from the bottom left: `y = height - py` for a `py` from the top. It is rounded to
     /// whole pixels as Shadertoy does.
     MouseDown { x: f32, y: f32 },
-    /// The same while the button is down or up.
+    /// The same while the button is down, or up if the program gives the pointer to the shader at all times.
     MouseMove { x: f32, y: f32 },
     /// The button is released.
     MouseUp,

@@ -55,7 +55,6 @@ impl Playback {
             // While a recording plays, its mouse is drawn.
             _ if self.is_replaying() => {}
             InputCommand::MouseDown { x, y } => self.move_mouse(|mouse| mouse.press(x, y)),
-            // A window sends it without a button only if the project reads the pointer.
             InputCommand::MouseMove { x, y } => self.move_mouse(|mouse| mouse.move_to(x, y)),
             InputCommand::MouseUp => self.move_mouse(Mouse::release),
             InputCommand::KeyDown(code) if self.keyboard.is_held(code) => {}
