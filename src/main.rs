@@ -23,8 +23,9 @@ fn main() -> ExitCode {
 
 #[cfg(feature = "gui")]
 fn open(window: Window) -> anyhow::Result<()> {
-    let Window { project, guest: _, size, set, follow, paused, frame_timeout, compile_timeout, webcam, osc, json } =
-        window;
+    let Window {
+        project, size, set, follow, paused, frame_timeout, compile_timeout, webcam, osc, adapter, json, ..
+    } = window;
     Ok(eddy::gui::run(eddy::gui::Options {
         project,
         size,
@@ -35,6 +36,7 @@ fn open(window: Window) -> anyhow::Result<()> {
         compile_timeout,
         webcam,
         osc,
+        adapter,
         json,
     })?)
 }

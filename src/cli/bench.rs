@@ -111,7 +111,7 @@ impl Run for BenchArgs {
 /// Measures every project with every combination of `sweep`.
 fn run(args: &BenchArgs, sweep: &[Vec<String>], inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
-    let mut machine = Machine::default();
+    let mut machine = Machine::of(&args.run);
     for (spec, swept) in args.project.iter().flat_map(|spec| sweep.iter().map(move |swept| (spec, swept))) {
         let mut report = Report::swept(spec, swept);
         let costs =

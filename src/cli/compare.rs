@@ -92,7 +92,7 @@ impl Run for CompareArgs {
 
 fn run(args: &CompareArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
-    let mut machine = Machine::default();
+    let mut machine = Machine::of(&args.run);
     let mut report = Report::new(&args.project);
     let reference = match (&args.reference, &args.revision) {
         (Some(reference), _) => reference.clone(),

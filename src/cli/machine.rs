@@ -9,7 +9,7 @@ use super::{
 use crate::{
     diag::{Diagnostic, SourceMap},
     engine::{BuildError, EngineError},
-    gpu::{Gpu, GpuError, GpuOptions, loss},
+    gpu::{ADAPTER_VARIABLE, AdapterChoice, Gpu, GpuError, GpuOptions, loss},
     lab::Shard,
     playback::offline::{DrawnFrame, Offline, OfflineError},
     project::ProjectError,
@@ -75,6 +75,8 @@ impl From<anyhow::Error> for RunError {
 /// The device of a call, created when the first project needs one.
 #[derive(Default)]
 pub(super) struct Machine {
+    /// The adapter of the command line.
+    adapter: Option<String>,
     gpu: Option<Gpu>,
     /// The reason why there is no device, which is determined once.
     refusal: Option<String>,
@@ -93,6 +95,11 @@ enum DeviceLoss {
 }
 
 impl Machine {
+    /// Returns a machine that draws on the adapter of these arguments.
+    pub(super) fn of(args: &RunArgs) -> Self {
+        Self { adapter: args.adapter.clone(), ..Self::default() }
+    }
+
     pub(super) fn gpu(&mut self) -> anyhow::Result<Gpu> {
         if let Some(gpu) = &self.gpu {
             return Ok(gpu.clone());
@@ -101,7 +108,12 @@ impl Machine {
             anyhow::bail!("{refusal}");
         }
         let patience = if self.loss == DeviceLoss::New { loss::RESET_TIMEOUT } else { Duration::ZERO };
-        match loss::reopen(patience, || loss::open_with_timeout(|| Gpu::new(&GpuOptions::default()))) {
+        let adapter = AdapterChoice::first_of([self.adapter.clone(), env::var(ADAPTER_VARIABLE).ok()]);
+        let open = || {
+            let options = GpuOptions { adapter: adapter.clone(), ..GpuOptions::default() };
+            loss::open_with_timeout(move || Gpu::new(&options))
+        };
+        match loss::reopen(patience, open) {
             Ok(gpu) => {
                 self.loss = DeviceLoss::None;
                 Ok(self.gpu.insert(gpu).clone())

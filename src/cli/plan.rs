@@ -55,7 +55,7 @@ struct JsonLine<'a> {
 
 pub(super) fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
-    let mut machine = Machine::default();
+    let mut machine = Machine::of(&args.run);
     for spec in &args.project {
         let swept = targets.sweep.first().cloned().unwrap_or_default();
         let mut report = Report::swept(spec, &swept);

@@ -46,7 +46,7 @@ struct JsonLine<'a> {
 
 pub(super) fn run(args: &PrecisionArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
-    let mut machine = Machine::default();
+    let mut machine = Machine::of(&args.run);
     for spec in &args.project {
         let mut report = Report::new(spec);
         let compared = machine

@@ -68,7 +68,7 @@ impl Run for ProbeArgs {
 
 fn run(args: &ProbeArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
-    let mut machine = Machine::default();
+    let mut machine = Machine::of(&args.run);
     let mut report = Report::new(&args.project);
     let probed = machine.attempt(&mut report, |machine, report| probed(machine, report, args, inputs.clone()));
     let words = probed.as_ref().map_or(String::new(), |probed| words(&args.project, probed));

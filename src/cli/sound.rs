@@ -164,7 +164,7 @@ struct SoundReport {
 
 pub(super) fn run(args: &RenderArgs, sounds: &Sounds, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
-    let mut machine = Machine::default();
+    let mut machine = Machine::of(&args.run);
     let blocks = sounds.frames.div_ceil(BLOCK_FRAMES);
     let progress = CallProgress::new(args.progress(), args.project.len() * blocks as usize, "blocks");
     for (index, spec) in args.project.iter().enumerate() {

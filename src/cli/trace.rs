@@ -131,7 +131,7 @@ impl Run for TraceArgs {
 
 fn run(args: &TraceArgs, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
-    let mut machine = Machine::default();
+    let mut machine = Machine::of(&args.run);
     for spec in &args.project {
         let mut report = Report::new(spec);
         if args.nonfinite {

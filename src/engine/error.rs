@@ -28,6 +28,9 @@ pub enum EngineError {
     Memory { needed: u64, available: u64 },
     #[error(transparent)]
     Mesh(#[from] MeshError),
+    /// See [`Engine::stop_by`](super::Engine::stop_by).
+    #[error("drawing was stopped")]
+    Stopped,
 }
 
 /// An error when building a program.

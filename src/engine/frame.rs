@@ -5,15 +5,16 @@ use super::{
     running::Running, shared::Shared, sound, uniforms,
 };
 use eddy_gpu::Gpu;
-use eddy_graph::{FrameOp, FrameState, Lap, Purpose};
+use eddy_graph::{FrameOp, FrameState, Lap, Purpose, SlicePart, SliceTimes};
 use eddy_project::{PassName, Region};
+use std::sync::atomic::Ordering;
 
 /// A callback that, before each band of a draw, returns the number of rows to draw next; `None` stops there.
 pub type Rows<'a> = dyn FnMut() -> Option<u32> + 'a;
 
 /// The purpose of drawing a frame, and the callbacks that it needs.
 pub enum DrawFor<'a> {
-    /// To show it. Does not wait for the device.
+    /// To show it. Does not wait for the device, except if that is shared with a window ([`Gpu::slices`]).
     Frame,
     /// For later frames: these are the same as after [`DrawFor::Frame`], but only draws that they depend on are done
     /// and nothing is shown. The contents of other passes are unspecified until the next frame.
@@ -40,6 +41,8 @@ pub struct Drawn {
     pub read: Option<PassInputs>,
     /// True if the caller did not stop the frame.
     pub is_whole: bool,
+    /// The number of submissions to the device.
+    pub submissions: u32,
 }
 
 /// The remaining operations of the newest frame.
@@ -48,6 +51,8 @@ pub(super) struct Unfinished {
     ops: std::vec::IntoIter<FrameOp>,
     /// The number of rows already drawn by the first of them, an [`FrameOp::EncodeRows`].
     rows: u32,
+    /// The frame is submitted in slices.
+    is_sliced: bool,
 }
 
 /// The caller's callbacks and results of a frame.
@@ -74,15 +79,23 @@ impl Running {
         self.set_uniforms(&shared.gpu, inputs);
         // The inputs are the same at every step.
         let inputs: Vec<Vec<u8>> = (0..self.program.draws.len()).map(|index| self.inputs_of(index)).collect();
-        let state = FrameState { canvas: self.canvas, off: &off, inputs: &inputs, lasting: &self.lasting };
+        let state = FrameState {
+            canvas: self.canvas,
+            off: &off,
+            inputs: &inputs,
+            lasting: &self.lasting,
+            slices: self.slices.as_ref(),
+        };
         let schedule = self.program.plan.schedule(&state, &mut self.changes, purpose);
         self.steps_drawn = schedule.steps;
+        self.submissions = 0;
         let stats = FrameStats {
             passes_drawn: schedule.drawn,
             passes_cached: schedule.cached,
             bytes_cached: schedule.cached_bytes,
         };
-        self.unfinished = Some(Unfinished { ops: schedule.ops.into_iter(), rows: 0 });
+        let is_sliced = self.slices.is_some() && matches!(purpose, Purpose::Frame | Purpose::Advance);
+        self.unfinished = Some(Unfinished { ops: schedule.ops.into_iter(), rows: 0, is_sliced });
         let is_whole = self.execute(shared, display, caller).inspect_err(|_| self.changes.invalidate())?;
         Ok((stats, is_whole))
     }
@@ -99,7 +112,7 @@ impl Running {
         self.uniforms.set_tile_origin(tiled.draw, origin);
         self.uniforms.write(&shared.gpu);
         let ops = self.program.plan.schedule_tile(size);
-        self.unfinished = Some(Unfinished { ops: ops.into_iter(), rows: 0 });
+        self.unfinished = Some(Unfinished { ops: ops.into_iter(), rows: 0, is_sliced: false });
         self.execute(shared, None, caller)?;
         Ok(())
     }
@@ -115,10 +128,19 @@ impl Running {
         let Some(mut unfinished) = self.unfinished.take() else { return Ok(true) };
         let gpu = &shared.gpu;
         let mut encoder = new_encoder(gpu);
+        let mut slice: Vec<SlicePart> = Vec::new();
         while let Some(&op) = unfinished.ops.as_slice().first() {
             match op {
                 FrameOp::StartTimestamps => self.timer.iter_mut().for_each(eddy_gpu::PassTimer::start),
-                FrameOp::Encode { draw, layer } => self.encode(shared, &mut encoder, (draw, layer), None),
+                FrameOp::Encode { draw, layer } => {
+                    self.encode(shared, &mut encoder, (draw, layer), None);
+                    slice.push(SlicePart { draw, fraction: 1.0 / f64::from(self.program.plan.layers(draw)) });
+                }
+                FrameOp::EncodePart { draw, area } => {
+                    self.encode(shared, &mut encoder, (draw, 0), Some(area));
+                    let height = self.targets[self.program.plan.draws[draw].targets.start].size().1;
+                    slice.push(SlicePart { draw, fraction: f64::from(area.height) / f64::from(height) });
+                }
                 FrameOp::EncodeRows { draw, area, align } => {
                     let Some(rows) = (caller.rows)() else {
                         self.unfinished = Some(unfinished);
@@ -130,6 +152,7 @@ impl Running {
                     self.encode(shared, &mut encoder, (draw, 0), Some(part));
                     unfinished.rows += height;
                     if unfinished.rows < area.height {
+                        self.submissions += 1;
                         submit(gpu, &mut encoder);
                         gpu.wait()?;
                         continue;
@@ -150,17 +173,34 @@ impl Running {
                 }
                 FrameOp::ResolveTimestamps => self.timer.iter_mut().for_each(|timer| timer.resolve(&mut encoder)),
                 FrameOp::Submit => {
+                    self.submissions += 1;
                     submit(gpu, &mut encoder);
                     self.timer.iter_mut().for_each(eddy_gpu::PassTimer::submitted);
                 }
                 FrameOp::SubmitAndWait => {
+                    let submitted = now(gpu);
+                    self.submissions += 1;
                     submit(gpu, &mut encoder);
                     gpu.wait()?;
+                    self.timer.iter_mut().for_each(eddy_gpu::PassTimer::submitted);
+                    if unfinished.is_sliced {
+                        self.end_slice(shared, &mut slice, submitted)?;
+                    }
                 }
             }
             unfinished.ops.next();
         }
+        self.slices.iter_mut().filter(|_| unfinished.is_sliced).for_each(SliceTimes::end_frame);
         Ok(true)
+    }
+
+    /// Adds a slice to the times of its draws.
+    fn end_slice(&mut self, shared: &Shared, slice: &mut Vec<SlicePart>, submitted: f64) -> Result<(), EngineError> {
+        if let Some(times) = &mut self.slices {
+            times.measure(slice, now(&shared.gpu) - submitted);
+        }
+        slice.clear();
+        if shared.stop.load(Ordering::Relaxed) { Err(EngineError::Stopped) } else { Ok(()) }
     }
 
     /// Records that the targets of a draw contain the encoded result.
@@ -214,6 +254,11 @@ impl Running {
         }
         read
     }
+}
+
+/// Returns the milliseconds of the clock for slices.
+fn now(gpu: &Gpu) -> f64 {
+    gpu.slices.as_ref().map_or(0.0, |slices| (slices.now)())
 }
 
 fn new_encoder(gpu: &Gpu) -> wgpu::CommandEncoder {

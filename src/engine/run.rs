@@ -17,6 +17,7 @@ use eddy_graph::{Purpose, Traffic};
 use eddy_project::{CustomUniformValues, PassName};
 use eddy_texture::{TexelFormat, TextureShape};
 use eddy_video::CameraFrame;
+use std::sync::{Arc, atomic::AtomicBool};
 
 /// A device, and the program that runs on it.
 pub struct Engine {
@@ -135,6 +136,12 @@ impl Engine {
         Ok(self.draw_for(inputs, DrawFor::Frame)?.stats)
     }
 
+    /// Ends frames early while this is set, with [`EngineError::Stopped`]. It only takes effect on a device that is shared
+    /// with a window ([`Gpu::slices`]), between two slices of a frame.
+    pub fn stop_by(&mut self, stop: Arc<AtomicBool>) {
+        self.shared.stop = stop;
+    }
+
     /// Draws one frame for a purpose. Without a program nothing is drawn.
     pub fn draw_for(&mut self, inputs: &FrameInputs, purpose: DrawFor<'_>) -> Result<Drawn, EngineError> {
         let Some(running) = &mut self.running else { return Ok(Drawn { is_whole: true, ..Drawn::default() }) };
@@ -171,6 +178,7 @@ impl Engine {
                 (drawn.stats, drawn.is_whole) = running.draw(shared, display, inputs, Purpose::Bands, &mut caller)?;
             }
         }
+        drawn.submissions = running.submissions;
         self.shared.gpu.take_error("a frame")?;
         Ok(drawn)
     }
@@ -374,6 +382,12 @@ impl Engine {
     /// creates a new view.
     pub fn display(&self) -> &wgpu::TextureView {
         self.display.view()
+    }
+
+    /// Returns the size of [`Engine::display`] in pixels.
+    pub fn display_size(&self) -> (u32, u32) {
+        let texture = self.display.texture();
+        (texture.width(), texture.height())
     }
 
     /// Selects the pass that [`Engine::display`] shows, starting with its newest texels. Nothing is presented before

@@ -11,7 +11,7 @@ use super::{
     uniforms::{self, Uniforms},
 };
 use eddy_gpu::{PassTimer, Texture, depth_buffer};
-use eddy_graph::Changes;
+use eddy_graph::{Changes, SliceTimes};
 use eddy_project::{CustomUniformValues, PassName};
 
 /// A program with its textures, on a canvas of one size.
@@ -30,11 +30,24 @@ pub(super) struct Running {
     pub timer: Option<PassTimer>,
     /// The number of times that each draw was executed in the newest frame.
     pub steps_drawn: Vec<u32>,
+    /// The number of submissions of the newest frame.
+    pub submissions: u32,
     /// The rest of the newest frame, if the caller stopped it.
     pub unfinished: Option<Unfinished>,
     /// For each draw, whether later frames depend on it.
     pub lasting: Vec<bool>,
+    /// The times of draws, if frames are submitted in slices.
+    pub slices: Option<SliceTimes>,
 }
+
+/// Returns the times of the draws of a program, if its frames are submitted in slices.
+fn slice_times(shared: &Shared, program: &Program) -> Option<SliceTimes> {
+    let limit = shared.gpu.slices.as_ref()?.limit;
+    Some(SliceTimes::new(limit.as_secs_f64() * 1e3, program.draws.len()))
+}
+
+/// The number of slices of a frame whose draws are timed by the device. A frame of more takes seconds.
+const TIMED_SLICES: u64 = 256;
 
 /// The textures that a program needs in addition to the existing ones.
 struct NewTextures {
@@ -84,8 +97,10 @@ impl Running {
             is_blank: Vec::new(),
             timer: None,
             steps_drawn: Vec::new(),
+            submissions: 0,
             unfinished: None,
             lasting: program.plan.lasting_draws(),
+            slices: slice_times(shared, &program),
             program,
         };
         running.uniforms.set_custom_uniforms(
@@ -193,7 +208,8 @@ impl Running {
 
     /// Turns measuring on or off. Allocates queries for every draw of a frame.
     pub(crate) fn set_timing(&mut self, shared: &Shared, on: bool) {
-        let draws = u32::try_from(self.program.plan.draws_per_frame().max(1)).unwrap_or(u32::MAX);
+        let parts = if self.slices.is_some() { TIMED_SLICES } else { 0 };
+        let draws = u32::try_from(self.program.plan.draws_per_frame().max(1) + parts).unwrap_or(u32::MAX);
         self.timer = if on { PassTimer::new(&shared.gpu, draws) } else { None };
     }
 

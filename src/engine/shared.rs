@@ -2,12 +2,15 @@
 
 use eddy_gpu::{Gpu, GpuError, MipMaker, Samplers, Texture, TextureDescriptor};
 use eddy_texture::{Dimension, TexelFormat, TextureShape};
+use std::sync::{Arc, atomic::AtomicBool};
 
 pub(super) struct Shared {
     pub gpu: Gpu,
     pub samplers: Samplers,
     pub fallbacks: FallbackTextures,
     pub mips: MipMaker,
+    /// Set by another thread to end a frame between two slices.
+    pub stop: Arc<AtomicBool>,
 }
 
 impl Shared {
@@ -16,6 +19,7 @@ impl Shared {
             samplers: Samplers::new(&gpu),
             fallbacks: FallbackTextures::new(&gpu)?,
             mips: MipMaker::new(&gpu),
+            stop: Arc::default(),
             gpu,
         })
     }

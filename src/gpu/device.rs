@@ -1,14 +1,19 @@
 //! The device with its known properties, and the priority of threads where the CPU draws.
 
-use super::loss;
-use std::sync::{
-    Arc, Mutex,
-    atomic::{AtomicBool, Ordering},
+use super::{AdapterChoice, loss};
+use std::{
+    sync::{
+        Arc, Mutex,
+        atomic::{AtomicBool, Ordering},
+    },
+    time::Duration,
 };
 
 /// The requested device features.
 #[derive(Clone, Debug)]
 pub struct GpuOptions {
+    /// The adapter, where one is to be found.
+    pub adapter: AdapterChoice,
     /// Use filtering of 32-bit float textures if the adapter supports it. Otherwise every such read is emulated: this
     /// is used to test the fallback on a device that does not need it.
     pub use_float32_filtering: bool,
@@ -17,11 +22,19 @@ pub struct GpuOptions {
     /// Let naga add its own checks to shaders (indices, loops, integer division), which Eddy's front end makes
     /// unnecessary: this is used to measure their cost.
     pub runtime_checks: bool,
+    /// Treat the device as a GPU even if the processor draws: this is used to test what only GPUs do.
+    pub treat_as_gpu: bool,
 }
 
 impl Default for GpuOptions {
     fn default() -> Self {
-        Self { use_float32_filtering: true, use_timestamps: true, runtime_checks: false }
+        Self {
+            adapter: AdapterChoice::default(),
+            use_float32_filtering: true,
+            use_timestamps: true,
+            runtime_checks: false,
+            treat_as_gpu: false,
+        }
     }
 }
 
@@ -33,6 +46,8 @@ pub enum GpuError {
          that runs on the CPU"
     )]
     NoAdapter(String),
+    #[error("no graphics adapter has {name:?} in its name: {why}")]
+    NoSuchAdapter { name: String, why: String },
     #[error("cannot open {adapter}: {reason}")]
     NoDevice { adapter: String, reason: String },
     #[error("{what} of {width}x{height} pixels: this device draws at most {limit}x{limit}")]
@@ -58,6 +73,15 @@ pub enum GpuError {
     /// wgpu rejected something that Eddy created: Eddy's own bug.
     #[error("this is a bug in Eddy: the graphics layer refused {what}: {reason}")]
     Refused { what: String, reason: String },
+}
+
+/// The division of frames into parts that are submitted one after the other.
+#[derive(Clone)]
+pub struct Slices {
+    /// The time that a part may take.
+    pub limit: Duration,
+    /// Returns milliseconds from an arbitrary origin.
+    pub now: Arc<dyn Fn() -> f64 + Send + Sync>,
 }
 
 /// An arbitrary limit: 1,000 times the iterations of a long ray march, and few enough to end. The cost of counting them
@@ -107,6 +131,9 @@ pub struct Gpu {
     pub max_loop_iterations: Option<u32>,
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
+    /// A window is painted on this device too: engines submit their frames in slices, so that painting runs in between.
+    pub slices: Option<Slices>,
+    pub(super) treat_as_gpu: bool,
     pub(super) runtime_checks: bool,
     pub(super) fences: Option<super::fences::FenceKeeper>,
     state: Arc<State>,
@@ -125,16 +152,12 @@ impl Gpu {
         let mut reasons = Vec::new();
         for descriptor in Self::instance_descriptors() {
             let instance = wgpu::Instance::new(descriptor);
-            let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions {
-                power_preference: wgpu::PowerPreference::HighPerformance,
-                ..Default::default()
-            }));
-            match adapter {
+            match options.adapter.choose(&instance, None) {
                 Ok(adapter) => return Self::from_adapter(&adapter, options),
-                Err(e) => reasons.push(e.to_string()),
+                Err(why) => reasons.push(why),
             }
         }
-        Err(GpuError::NoAdapter(reasons.join("; ")))
+        Err(options.adapter.missing(&reasons))
     }
 
     /// Opens another device on the adapter of `info`, from a separate instance, so that neither waits in the other's
@@ -231,6 +254,8 @@ impl Gpu {
             keeps_loops_open: info.name.starts_with("llvmpipe"),
             nan_angle: info.backend == wgpu::Backend::Dx12,
             max_loop_iterations: (info.device_type != wgpu::DeviceType::Cpu).then_some(MAX_LOOP_ITERATIONS),
+            slices: None,
+            treat_as_gpu: options.treat_as_gpu,
             runtime_checks: options.runtime_checks,
             fences: is_lavapipe.then(|| super::fences::FenceKeeper::new(&device)),
             has_timestamps: features.contains(wgpu::Features::TIMESTAMP_QUERY),
@@ -244,6 +269,17 @@ impl Gpu {
     /// Returns a description for users: the adapter's name, the backend and the driver.
     pub fn describe(&self) -> String {
         format!("{} ({}, {})", self.info.name, self.info.backend, self.info.driver_info)
+    }
+
+    /// Returns the same device for engines that share it with a window.
+    pub fn in_slices(&self, slices: Slices) -> Gpu {
+        Gpu { slices: Some(slices), ..self.clone() }
+    }
+
+    /// Returns whether both are the same device.
+    pub fn is_same_device(&self, other: &Gpu) -> bool {
+        // Ids of wgpu's devices are those of their instances.
+        Arc::ptr_eq(&self.state, &other.state)
     }
 
     /// Rejects a size that no target can have, with a better error than the graphics layer's.

@@ -2,6 +2,7 @@
 //!
 //! Every object has a label. This package knows nothing about shading languages, projects or the callers' purposes.
 
+mod adapter;
 mod bindings;
 mod buffer;
 mod convert;
@@ -27,10 +28,11 @@ mod texture;
 mod timer;
 mod values;
 
+pub use adapter::{ADAPTER_VARIABLE, AdapterChoice};
 pub use bindings::Binding;
 pub use buffer::constant_buffer;
 pub use convert::FloatConverter;
-pub use device::{Gpu, GpuError, GpuOptions};
+pub use device::{Gpu, GpuError, GpuOptions, Slices};
 pub use eddy_texture::TextureShape;
 pub use mesh::{MeshBuffers, MeshPipelineDescriptor, check_targets, depth_buffer};
 pub use miniature::{Miniatures, SIZE as MINIATURE_SIZE};

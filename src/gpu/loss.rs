@@ -54,7 +54,24 @@ pub fn is_loss(panic: &str) -> bool {
 
 /// Polls a device. Returns an error if it was lost.
 pub(crate) fn poll(device: &wgpu::Device, how: wgpu::PollType) -> Result<(), String> {
-    caught(|| device.poll(how).map(drop).map_err(|error| error.to_string()))
+    caught(|| until_done(|| device.poll(how.clone())))
+}
+
+/// The number of waits without a timeout that time out: on OpenGL each ends after 2^31 ns, although the device still
+/// draws, and at once, with the same error, if the driver cannot wait (`wgpu-hal/src/gles/fence.rs`, `wait`). Together
+/// they are ten minutes or three seconds.
+const WAITS: usize = 300;
+const WAIT_DELAY: Duration = Duration::from_millis(10);
+
+/// Polls until there is an answer.
+fn until_done(mut poll: impl FnMut() -> Result<wgpu::PollStatus, wgpu::PollError>) -> Result<(), String> {
+    for _ in 1..WAITS {
+        match poll() {
+            Err(wgpu::PollError::Timeout) => std::thread::sleep(WAIT_DELAY),
+            done => return done.map(drop).map_err(|error| error.to_string()),
+        }
+    }
+    poll().map(drop).map_err(|error| error.to_string())
 }
 
 fn caught(poll: impl FnOnce() -> Result<(), String>) -> Result<(), String> {
@@ -92,6 +109,23 @@ mod tests {
             assert!(!is_loss(other));
             assert!(catch_unwind(|| caught(|| panic!("{other}"))).is_err());
         }
+    }
+
+    #[test]
+    fn a_wait_that_times_out_goes_on() {
+        let mut polls = 0;
+        let done = until_done(|| {
+            polls += 1;
+            if polls < 4 { Err(wgpu::PollError::Timeout) } else { Ok(wgpu::PollStatus::QueueEmpty) }
+        });
+        assert_eq!((done, polls), (Ok(()), 4));
+        assert!(until_done(|| Err(wgpu::PollError::WrongSubmissionIndex(2, 1))).is_err());
+        let mut polls = 0;
+        let failed = until_done(|| {
+            polls += 1;
+            Err(wgpu::PollError::Timeout)
+        });
+        assert_eq!((failed.is_err(), polls), (true, WAITS));
     }
 
     #[test]

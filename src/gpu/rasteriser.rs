@@ -93,7 +93,8 @@ impl Rasteriser {
 impl Gpu {
     /// Returns what draws on this device.
     pub fn rasteriser(&self) -> Rasteriser {
-        if self.info.device_type == wgpu::DeviceType::Cpu { Rasteriser::software() } else { Rasteriser::GPU }
+        let is_software = self.info.device_type == wgpu::DeviceType::Cpu && !self.treat_as_gpu;
+        if is_software { Rasteriser::software() } else { Rasteriser::GPU }
     }
 }
 

@@ -115,9 +115,10 @@ impl PassTimer {
         slot.state = State::Recorded;
     }
 
-    /// Called after the frame was submitted.
+    /// Called after commands were submitted. The frame is complete if they include [`PassTimer::resolve`].
     pub fn submitted(&mut self) {
-        let Some(i) = self.recording.take() else { return };
+        let is_resolved = |&mut i: &mut usize| matches!(self.slots[i].state, State::Recorded);
+        let Some(i) = self.recording.take_if(is_resolved) else { return };
         let slot = &mut self.slots[i];
         let done = Arc::new(AtomicBool::new(false));
         let signal = done.clone();

@@ -58,14 +58,21 @@ impl FramePlan {
     pub fn divisible_draw(&self) -> Option<usize> {
         let last = self.runs.last().filter(|run| run.steps == 1)?;
         let index = last.draws.clone().last()?;
-        let draw = &self.draws[index];
-        let is_plain = draw.extra_target.is_none() && draw.boundary.is_none() && !draw.draws_meshes;
-        let mut targets = draw.targets.clone();
+        let mut targets = self.draws[index].targets.clone();
         let is_target_plain = targets.len() == 1
             && targets.all(|target| {
                 let of = &self.targets[target];
-                of.dimension == Dimension::D2 && !of.doubled && !of.mips && self.carried(target) == Carried::Nothing
+                !of.doubled && !of.mips && self.carried(target) == Carried::Nothing
             });
-        (is_plain && is_target_plain).then_some(index)
+        (self.has_parts(index) && is_target_plain).then_some(index)
+    }
+
+    /// Returns whether a draw may be encoded in parts, each with a scissor rectangle, if all of them are drawn before
+    /// anything reads its targets: nothing but one triangle is drawn, into the whole of flat targets.
+    pub fn has_parts(&self, index: usize) -> bool {
+        let draw = &self.draws[index];
+        let is_flat = |target: usize| self.targets[target].dimension == Dimension::D2;
+        let is_plain = draw.extra_target.is_none() && draw.boundary.is_none() && draw.region.is_none();
+        is_plain && !draw.draws_meshes && draw.targets.clone().all(is_flat)
     }
 }

@@ -17,7 +17,7 @@ use super::{
     system_theme, theme, window_identity,
 };
 use crate::{
-    gpu::Gpu,
+    gpu::{ADAPTER_VARIABLE, AdapterChoice, Gpu, GpuError},
     playback::trial::TrialSettings,
     session::{
         self, CanvasCommand, EditCommand, FileCommand, HaltCommand, InputCommand, Level, NoticeCommand, Request,
@@ -201,6 +201,27 @@ enum Next {
     Exit,
 }
 
+/// Opens the window's surface on the adapter of the command line, of the environment, or of the settings. A setting that
+/// fits none does not keep the window from opening.
+fn surface(
+    event_loop: &ActiveEventLoop,
+    window: &Arc<Window>,
+    ordered: Option<&String>,
+    settings: &SettingsFile,
+    errors: &mut Vec<String>,
+) -> Result<Surface, GuiError> {
+    let open = |choice| Surface::new(window, event_loop.owned_display_handle(), choice);
+    let ordered = ordered.cloned().or_else(|| std::env::var(ADAPTER_VARIABLE).ok());
+    let is_set = ordered.is_none();
+    match open(AdapterChoice::first_of([ordered, settings.settings().adapter.clone()])) {
+        Err(GuiError::Gpu(why @ GpuError::NoSuchAdapter { .. })) if is_set => {
+            errors.push(format!("{why}. Another one is used: change \"Graphics adapter\" in the settings"));
+            open(AdapterChoice::default())
+        }
+        opened => opened,
+    }
+}
+
 impl Running {
     fn new(
         event_loop: &ActiveEventLoop,
@@ -212,7 +233,9 @@ impl Running {
         let (window_state, mut errors) = window_file.read();
         let attributes = attributes(event_loop, options, &window_state.place);
         let window = Arc::new(event_loop.create_window(attributes).map_err(no_display)?);
-        let surface = Surface::new(&window, event_loop.owned_display_handle())?;
+        let mut settings = SettingsFile::new();
+        errors.extend(settings.refresh());
+        let surface = surface(event_loop, &window, options.adapter.as_ref(), &settings, &mut errors)?;
         let wake: Arc<dyn Fn() + Send + Sync> = {
             let proxy = proxy.clone();
             // Once the window is closed, so is the loop: a failed wake-up is harmless.
@@ -252,8 +275,6 @@ impl Running {
         let mut session = Session::with_options(surface.gpu().clone(), wake.clone(), session_options)?;
         let system_theme = system_theme::watch(wake.clone());
         let mut shell = Shell::new(surface.gpu().clone(), wake.clone(), options.project.is_none());
-        let mut settings = SettingsFile::new();
-        errors.extend(settings.refresh());
         let overrides = Overrides { frame_limit: options.frame_limit.is_some(), osc: options.osc };
         shell.restore(settings, &window_state, overrides);
         if options.follow {

@@ -111,6 +111,9 @@ pub struct Options {
     pub webcam: Option<CameraSource>,
     /// Receive OSC on this address, which overrides the settings.
     pub osc: Option<SocketAddr>,
+    /// The graphics adapter, as [`AdapterChoice::parse`](crate::gpu::AdapterChoice::parse) takes it. It overrides the
+    /// settings.
+    pub adapter: Option<String>,
 }
 
 /// The window cannot open or cannot continue.

@@ -186,7 +186,9 @@ impl SettingsPage {
                 (Kind::Switch, Plain::Switch(is_on)) => switch(ui, setting, *is_on, out),
                 (Kind::Choice(choices), Plain::Text(name)) => choice(ui, setting, (choices, name), self.is_new, out),
                 (Kind::Number(number), Plain::Number(now)) => self.number(ui, setting, number, *now, out),
-                (Kind::FontFile | Kind::Folder | Kind::Address, Plain::Text(now)) => self.text(ui, setting, now, out),
+                (Kind::FontFile | Kind::Folder | Kind::Adapter | Kind::Address, Plain::Text(now)) => {
+                    self.text(ui, setting, now, out)
+                }
                 (_, Plain::Text(now)) => combo(ui, setting, &devices(&setting.row.kind, session), now, out),
                 _ => None,
             };
@@ -255,6 +257,7 @@ impl SettingsPage {
     fn text(&mut self, ui: &mut Ui, setting: &'static Setting, now: &str, out: &mut UiOutput) -> Option<Change> {
         let (hint, chooses) = match setting.row.kind {
             Kind::FontFile => ("Built-in", Some(("Choose a font file", Pick::CodeFont))),
+            Kind::Adapter => ("The fastest", None),
             Kind::Folder => ("None", Some(("Choose a folder", Pick::LibraryFolder))),
             _ => ("", None),
         };

@@ -8,7 +8,7 @@ use super::{
     back_buffer::{self, BackBuffer, Painting},
     damage::Area,
 };
-use crate::gpu::{Gpu, GpuOptions, loss};
+use crate::gpu::{AdapterChoice, Gpu, GpuOptions, loss};
 use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
 use std::{
     panic::{AssertUnwindSafe, catch_unwind, resume_unwind},
@@ -20,6 +20,7 @@ use winit::{dpi::PhysicalSize, event_loop::OwnedDisplayHandle, window::Window};
 fn open(
     window: &Arc<Window>,
     display: &OwnedDisplayHandle,
+    choice: &AdapterChoice,
 ) -> Result<(wgpu::Instance, wgpu::Surface<'static>, wgpu::Adapter), GuiError> {
     let mut reasons = Vec::new();
     for mut descriptor in Gpu::instance_descriptors() {
@@ -32,17 +33,19 @@ fn open(
                 continue;
             }
         };
-        let adapter = pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions {
-            power_preference: wgpu::PowerPreference::HighPerformance,
-            compatible_surface: Some(&surface),
-            ..Default::default()
-        }));
-        match adapter {
+        match choice.choose(&instance, Some(&surface)) {
             Ok(adapter) => return Ok((instance, surface, adapter)),
-            Err(e) => reasons.push(e.to_string()),
+            Err(why) => reasons.push(why),
         }
     }
-    Err(GuiError::Gpu(crate::gpu::GpuError::NoAdapter(reasons.join("; "))))
+    Err(GuiError::Gpu(choice.missing(&reasons)))
+}
+
+/// Returns the options for the window's device on an adapter. With the variable `EDDY_TREAT_AS_GPU`, a processor that draws is treated as
+/// a GPU: tests use it to run what only GPUs do.
+fn options(adapter: AdapterChoice) -> GpuOptions {
+    let treat_as_gpu = std::env::var_os("EDDY_TREAT_AS_GPU").is_some();
+    GpuOptions { adapter, treat_as_gpu, ..GpuOptions::default() }
 }
 
 fn config(
@@ -82,6 +85,7 @@ pub(super) enum Presented {
 
 pub(super) struct Surface {
     display: OwnedDisplayHandle,
+    options: GpuOptions,
     instance: wgpu::Instance,
     surface: wgpu::Surface<'static>,
     config: wgpu::SurfaceConfiguration,
@@ -98,14 +102,20 @@ const REFUSALS: u32 = 200;
 
 impl Surface {
     /// Creates a surface for the window, and the device that can draw on it.
-    pub(super) fn new(window: &Arc<Window>, display: OwnedDisplayHandle) -> Result<Surface, GuiError> {
-        let (instance, surface, adapter) = open(window, &display)?;
-        let gpu = Gpu::from_adapter(&adapter, &GpuOptions::default())?;
+    pub(super) fn new(
+        window: &Arc<Window>,
+        display: OwnedDisplayHandle,
+        adapter: AdapterChoice,
+    ) -> Result<Surface, GuiError> {
+        let options = options(adapter);
+        let (instance, surface, adapter) = open(window, &display, &options.adapter)?;
+        let gpu = Gpu::from_adapter(&adapter, &options)?;
         let config = config(&surface, &adapter, window.inner_size())?;
         surface.configure(&gpu.device, &config);
         let renderer = renderer(&gpu, &config);
         Ok(Surface {
             display,
+            options,
             instance,
             surface,
             config,
@@ -120,8 +130,8 @@ impl Surface {
     /// Replaces the lost device and surface with new ones. egui's fonts are kept; all other textures were on the lost
     /// device, and must be recreated by their owners.
     pub(super) fn reopen_device(&mut self, window: &Arc<Window>, ctx: &egui::Context) -> Result<(), GuiError> {
-        let (instance, surface, adapter) = open(window, &self.display)?;
-        let gpu = loss::reopen(loss::RESET_TIMEOUT, || Gpu::from_adapter(&adapter, &GpuOptions::default()))?;
+        let (instance, surface, adapter) = open(window, &self.display, &self.options.adapter)?;
+        let gpu = loss::reopen(loss::RESET_TIMEOUT, || Gpu::from_adapter(&adapter, &self.options))?;
         self.config = config(&surface, &adapter, window.inner_size())?;
         // A window has one swapchain: the old surface must be dropped before a new one is created. That panics if the
         // device was lost while a frame was presented, which then still exists (see `present`).

@@ -2,11 +2,11 @@
 
 use super::{
     Session,
-    drawing::{Change, Draw, DrawnFrame, Event, Job, JobResult, Tasks, TileLimit, beside},
+    drawing::{Change, Draw, DrawnFrame, Event, Job, JobResult, Loss, ShownPicture, Tasks, TileLimit, beside},
     open_project::OpenProject,
     view::{About, Level},
 };
-use eddy_engine::{EngineError, FrameInputs, Picture};
+use eddy_engine::{EngineError, FrameInputs};
 use eddy_gpu::{Gpu, GpuError};
 use std::{mem::take, time::Duration};
 
@@ -150,7 +150,7 @@ impl Session {
                 Event::Outdated => self.open.playback.is_redraw_due = true,
                 // While the picture runs, the next frame shows it.
                 Event::Late => self.open.playback.is_redraw_due |= !self.open.playback.is_running(),
-                Event::Picture(picture) => self.show_picture(&picture, has_frame),
+                Event::Picture(picture) => self.show_picture(picture, has_frame),
                 Event::Drawn(frame) => {
                     self.frame_is_drawn(frame);
                     is_drawn = true;
@@ -166,8 +166,8 @@ impl Session {
         is_drawn
     }
 
-    /// Shows a picture that was drawn on another device.
-    fn show_picture(&mut self, picture: &Picture, has_frame: bool) {
+    /// Shows a picture that another thread drew.
+    fn show_picture(&mut self, picture: ShownPicture, has_frame: bool) {
         self.services.display.shown_count += 1;
         self.services.display.is_new = true;
         // Also without a frame, if the display mode has changed.
@@ -235,15 +235,24 @@ impl Session {
         }
     }
 
-    /// Shows the picture on a new device of the window, whose previous one was lost. Drawing uses a separate device.
+    /// Shows the picture on a new device of the window, whose previous one was lost. If frames were drawn on it too,
+    /// drawing continues on the new one.
     pub fn show_on(&mut self, window: Gpu) -> Result<(), GpuError> {
-        self.services.drawing.show_on(window.clone())?;
+        if self.services.drawing.shares_window_device() {
+            // The window may have noticed it first.
+            self.lose_window_device("the graphics device was lost");
+        }
+        let lost = self.services.drawing.show_on(window.clone())?;
         self.services.sound_pass.change_device(beside(window));
-        // Request it again, also while paused.
-        self.open.changes.set(Change::Show(self.open.pictured()));
         self.services.display.generation += 1;
         self.services.display.shown_count += 1;
         self.open.host.changed = true;
+        match lost {
+            // The window reports the loss.
+            Some(Loss { why, shown }) => drop(self.recover_from_loss(&why, shown)),
+            // Request it again, also while paused.
+            None => self.open.changes.set(Change::Show(self.open.pictured())),
+        }
         Ok(())
     }
 }

@@ -102,7 +102,7 @@ impl Session {
     }
 
     /// Requests the run from the engine, and waits for it up to a limit.
-    fn take_run(&mut self) -> Option<Run> {
+    pub(super) fn take_run(&mut self) -> Option<Run> {
         self.ask_engine(Instant::now() + CLOSE_TIMEOUT, TakeRun).map(|(run, _)| run)
     }
 

@@ -49,7 +49,7 @@ impl Session {
         let size = (640, 360);
         let engine = EngineStatus::new(&gpu, size);
         let drawing = if options.draws_on_thread {
-            Drawing::on_thread(gpu.clone(), size, drawing::beside(gpu), wake.clone())?
+            Drawing::on_thread(gpu.clone(), size, drawing::for_frames(gpu), wake.clone())?
         } else {
             Drawing::inline(gpu, size)?
         };

@@ -1,14 +1,29 @@
-//! A frame that is drawn in bands equals a frame that is drawn in one piece, also if it is abandoned in between.
+//! A frame that is drawn in bands or slices equals a frame that is drawn in one piece, also if it is abandoned in
+//! between.
 
 use crate::support::*;
 use eddy::{
-    engine::{BuildOptions, DrawFor, Engine, FrameInputs},
-    gpu::Gpu,
+    engine::{BuildOptions, DrawFor, Engine, EngineError, FrameInputs},
+    gpu::{Gpu, Slices},
     media,
     project::{PassName, presets},
 };
+use std::{
+    sync::{
+        Arc,
+        atomic::{AtomicBool, AtomicU64, Ordering},
+    },
+    time::Duration,
+};
 
 const SIZE: (u32, u32) = (96, 150);
+
+/// Returns slices that are so short that all draws are split if they can be: by this clock each takes a second.
+fn short() -> Slices {
+    let calls = AtomicU64::new(0);
+    let now = move || 1e3 * calls.fetch_add(1, Ordering::Relaxed) as f64;
+    Slices { limit: Duration::from_millis(1), now: Arc::new(now) }
+}
 
 fn preset_engine(gpu: &Gpu, name: &str) -> Engine {
     let loaded = presets::load(name).unwrap();
@@ -35,6 +50,45 @@ fn frames_in_bands_equal_frames_in_one_piece() {
             assert!(whole.picture().unwrap().bytes == banded.picture().unwrap().bytes, "{name}, {rows} rows");
         }
     }
+}
+
+#[test]
+fn frames_in_slices_equal_frames_in_one_piece() {
+    let Some(gpu) = gpu() else { return };
+    let sliced = gpu.in_slices(short());
+    for name in presets::names() {
+        let (mut whole, mut slices) = (preset_engine(&gpu, name), preset_engine(&sliced, name));
+        for frame in 0..4 {
+            whole.draw(&inputs(frame)).unwrap();
+            let drawn = slices.draw_for(&inputs(frame), DrawFor::Frame).unwrap();
+            assert!(whole.picture().unwrap().bytes == slices.picture().unwrap().bytes, "{name}, frame {frame}");
+            // The times are known from the second frame on.
+            let passes = drawn.stats.passes_drawn as u32;
+            assert!(frame == 0 || passes == 0 || drawn.submissions > passes, "{name}: {drawn:?}");
+        }
+        for pass in presets::load(name).unwrap().project.passes.iter().map(|pass| &pass.id) {
+            let (Ok(a), Ok(b)) = (whole.read(pass), slices.read(pass)) else { continue };
+            assert!(
+                a.texels.iter().zip(&b.texels).all(|(a, b)| a.map(f32::to_bits) == b.map(f32::to_bits)),
+                "{name}: {}",
+                pass.title()
+            );
+        }
+    }
+}
+
+#[test]
+fn a_frame_in_slices_is_stopped_by_another_thread() {
+    let Some(gpu) = gpu() else { return };
+    let mut engine = preset_engine(&gpu.in_slices(short()), "fluid-accurate");
+    let stop = Arc::new(AtomicBool::new(false));
+    engine.stop_by(stop.clone());
+    engine.draw(&inputs(0)).unwrap();
+    stop.store(true, Ordering::Relaxed);
+    assert!(matches!(engine.draw(&inputs(1)), Err(EngineError::Stopped)));
+    // The frames after it are complete again.
+    stop.store(false, Ordering::Relaxed);
+    assert!(engine.draw_for(&inputs(1), DrawFor::Frame).unwrap().is_whole);
 }
 
 #[test]

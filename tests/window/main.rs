@@ -18,6 +18,7 @@ mod window_elsewhere;
 mod window_endurance;
 mod window_fields;
 mod window_first;
+mod window_gpu;
 mod window_keyboard;
 mod window_keys;
 mod window_kills;

@@ -68,6 +68,10 @@ pub struct Window {
     /// Listen to OSC at this UDP port for this run, at 127.0.0.1 unless an address of this computer is given
     #[arg(long, value_name = "[ADDR:]PORT", value_parser = osc)]
     pub osc: Option<SocketAddr>,
+    /// Graphics adapter: a part of its name, high-performance or low-power [default: WGPU_ADAPTER_NAME, or the setting, or
+    /// high-performance]
+    #[arg(long, value_name = "ADAPTER")]
+    pub adapter: Option<String>,
     /// Print events of the window to standard output, one JSON object per line
     #[arg(long)]
     pub json: bool,

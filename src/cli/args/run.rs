@@ -67,6 +67,9 @@ pub(crate) struct RunArgs {
     /// CPU time limit for compiling a large pass with a driver that compiles on the CPU [default: 8]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     pub compile_timeout: Option<Duration>,
+    /// Graphics adapter: a part of its name, high-performance or low-power [default: WGPU_ADAPTER_NAME, or high-performance]
+    #[arg(long, value_name = "ADAPTER")]
+    pub adapter: Option<String>,
     #[command(flatten)]
     pub without_pass: DisabledPasses,
     /// Not an option: `eddy render` sets it.

@@ -84,7 +84,7 @@ impl Run for RenderArgs {
 
 fn run(args: &RenderArgs, targets: &Targets, inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = if targets.is_pipe() { Printer::beside_pipe() } else { Printer::new(args.json) };
-    let mut machine = Machine::default();
+    let mut machine = Machine::of(&args.run);
     let progress = CallProgress::new(args.progress(), targets.pictures(), "frames");
     for (index, spec) in args.project.iter().enumerate() {
         for (number, swept) in targets.sweep.iter().enumerate() {

@@ -1,6 +1,6 @@
 //! A frame as a list of operations, decided without a device. An engine executes the list in one loop.
 
-use super::{Changes, Draw, FramePlan};
+use super::{Changes, Draw, FramePlan, SliceTimes};
 use eddy_project::Region;
 
 /// The purpose of drawing a frame, which determines its operations.
@@ -42,6 +42,13 @@ pub enum FrameOp {
         area: Region,
         /// The number of rows of a part is a multiple of this.
         align: u32,
+    },
+    /// Encodes a part of a draw in one layer.
+    EncodePart {
+        /// An index into [`FramePlan::draws`].
+        draw: usize,
+        /// The texels that are drawn.
+        area: Region,
     },
     /// The texels of a draw become visible to readers: double buffers are swapped, mip levels are built.
     Publish {
@@ -87,6 +94,9 @@ pub struct FrameState<'a> {
     pub inputs: &'a [Vec<u8>],
     /// For each draw, whether later frames depend on it ([`FramePlan::lasting_draws`]).
     pub lasting: &'a [bool],
+    /// The times of the draws, for a device that is to be free for other work in between: a frame for
+    /// [`Purpose::Frame`] or [`Purpose::Advance`] is submitted in slices, each of which is waited for.
+    pub slices: Option<&'a SliceTimes>,
 }
 
 /// The operations of a frame in order, with their counts.
@@ -105,6 +115,30 @@ pub struct Schedule {
     pub cached_bytes: u64,
 }
 
+/// The division of a frame into submissions.
+enum Division<'a> {
+    One,
+    /// This draw is in bands.
+    Bands(usize),
+    Slices(Slicer<'a>),
+}
+
+/// The slice that is being filled.
+struct Slicer<'a> {
+    times: &'a SliceTimes,
+    /// The expected milliseconds of the operations since the last submission.
+    unsubmitted: f64,
+}
+
+impl Slicer<'_> {
+    /// Ends the slice, unless it is empty.
+    fn submit(&mut self, ops: &mut Vec<FrameOp>) {
+        if std::mem::take(&mut self.unsubmitted) > 0.0 {
+            ops.push(FrameOp::SubmitAndWait);
+        }
+    }
+}
+
 impl FramePlan {
     /// Schedules a frame. `changes` tracks what was drawn before; the draws of the schedule count as executed
     /// afterwards.
@@ -113,9 +147,10 @@ impl FramePlan {
     /// If the lists in `state` are shorter than the plan's draws.
     pub fn schedule(&self, state: &FrameState<'_>, changes: &mut Changes, purpose: Purpose) -> Schedule {
         let mut schedule = Schedule { steps: vec![0; self.draws.len()], ..Schedule::default() };
-        let in_bands = match purpose {
-            Purpose::Bands | Purpose::Sound => self.divisible_draw(),
-            _ => None,
+        let mut division = match (purpose, state.slices) {
+            (Purpose::Bands | Purpose::Sound, _) => self.divisible_draw().map_or(Division::One, Division::Bands),
+            (Purpose::Frame | Purpose::Advance, Some(times)) => Division::Slices(Slicer { times, unsubmitted: 0.0 }),
+            _ => Division::One,
         };
         // Timestamps of several submissions do not add up to a frame's time.
         let has_timestamps = matches!(purpose, Purpose::Frame | Purpose::Inspect(_) | Purpose::Advance);
@@ -135,7 +170,7 @@ impl FramePlan {
                 for index in run.draws.clone() {
                     let is_left_out = state.off[index] || purpose == Purpose::Advance && !state.lasting[index];
                     if !is_left_out {
-                        self.schedule_draw(index, state, changes, purpose, in_bands, &mut schedule);
+                        self.schedule_draw(index, state, changes, purpose, &mut division, &mut schedule);
                     }
                 }
             }
@@ -146,7 +181,7 @@ impl FramePlan {
         if !matches!(purpose, Purpose::Advance | Purpose::Sound) {
             schedule.ops.push(FrameOp::Present);
         }
-        let waits = matches!(purpose, Purpose::Bands | Purpose::Sound);
+        let waits = matches!(purpose, Purpose::Bands | Purpose::Sound) || matches!(division, Division::Slices(_));
         schedule.ops.push(if waits { FrameOp::SubmitAndWait } else { FrameOp::Submit });
         schedule
     }
@@ -158,7 +193,7 @@ impl FramePlan {
         state: &FrameState<'_>,
         changes: &mut Changes,
         purpose: Purpose,
-        in_bands: Option<usize>,
+        division: &mut Division<'_>,
         schedule: &mut Schedule,
     ) {
         let draw = &self.draws[index];
@@ -184,16 +219,50 @@ impl FramePlan {
         if purpose == Purpose::Timed {
             schedule.ops.push(FrameOp::Clock(Lap::Start));
         }
-        if in_bands == Some(index) {
-            let (width, height) = self.targets[draw.targets.start].size.of(state.canvas);
-            let area = Region { x: 0, y: 0, width, height };
-            schedule.ops.extend([FrameOp::SubmitAndWait, FrameOp::EncodeRows { draw: index, area, align: 1 }]);
-        } else {
-            schedule.ops.extend((0..self.layers(index)).map(|layer| FrameOp::Encode { draw: index, layer }));
+        match division {
+            Division::Slices(slicer) => self.schedule_slices(index, state.canvas, slicer, &mut schedule.ops),
+            Division::Bands(divisible) if *divisible == index => {
+                let (width, height) = self.targets[draw.targets.start].size.of(state.canvas);
+                let area = Region { x: 0, y: 0, width, height };
+                schedule.ops.extend([FrameOp::SubmitAndWait, FrameOp::EncodeRows { draw: index, area, align: 1 }]);
+            }
+            _ => schedule.ops.extend((0..self.layers(index)).map(|layer| FrameOp::Encode { draw: index, layer })),
         }
         schedule.ops.push(FrameOp::Publish { draw: index });
         if purpose == Purpose::Timed {
             schedule.ops.extend([FrameOp::SubmitAndWait, FrameOp::Clock(Lap::Draw(index))]);
+        }
+    }
+
+    /// Schedules a draw in slices. A draw whose time is not known has slices of its own.
+    fn schedule_slices(&self, index: usize, canvas: (u32, u32), slicer: &mut Slicer<'_>, ops: &mut Vec<FrameOp>) {
+        let (times, layers) = (slicer.times, self.layers(index));
+        let expected = times.expected(index);
+        let millis = expected.unwrap_or(times.limit());
+        let is_joined = expected.is_some() && slicer.unsubmitted + millis <= times.limit();
+        if !is_joined {
+            slicer.submit(ops);
+        }
+        if is_joined || !self.has_parts(index) {
+            for layer in 0..layers {
+                ops.push(FrameOp::Encode { draw: index, layer });
+                slicer.unsubmitted += millis / f64::from(layers);
+                if !is_joined {
+                    slicer.submit(ops);
+                }
+            }
+            return;
+        }
+        let (width, height) = self.targets[self.draws[index].targets.start].size.of(canvas);
+        let mut y = 0;
+        for rows in times.parts(index, (width, height)) {
+            slicer.submit(ops);
+            ops.push(FrameOp::EncodePart { draw: index, area: Region { x: 0, y, width, height: rows } });
+            slicer.unsubmitted = millis * f64::from(rows) / f64::from(height);
+            y += rows;
+        }
+        if expected.is_none() {
+            slicer.submit(ops);
         }
     }
 

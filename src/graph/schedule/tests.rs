@@ -1,9 +1,10 @@
 //! Schedules of small plans, without a device.
 
 use super::*;
-use crate::{ChannelFacts, PassFacts};
+use crate::{ChannelFacts, PassFacts, SlicePart};
 use eddy_project::{
-    Channel, Filter, Group, Input, MAX_CHANNELS, Origin, Pass, PassName, PassSettings, Project, Sampler, Source, Wrap,
+    Channel, Filter, Group, Input, MAX_CHANNELS, Origin, Pass, PassName, PassSettings, PassSize, Project, Sampler,
+    Source, Wrap,
 };
 
 /// A buffer A that reads itself and B, a buffer B that reads nothing, and Image that reads A.
@@ -34,24 +35,28 @@ struct Frames {
     changes: Changes,
     off: Vec<bool>,
     inputs: Vec<Vec<u8>>,
+    slices: Option<SliceTimes>,
 }
 
 impl Frames {
     fn of(plan: FramePlan) -> Frames {
         let (off, inputs) = (vec![false; plan.draws.len()], vec![Vec::new(); plan.draws.len()]);
-        Frames { changes: Changes::new(&plan), off, inputs, plan }
+        Frames { changes: Changes::new(&plan), off, inputs, plan, slices: None }
     }
 
     fn next(&mut self, purpose: Purpose) -> Schedule {
         let lasting = self.plan.lasting_draws();
-        let state = FrameState { canvas: (8, 4), off: &self.off, inputs: &self.inputs, lasting: &lasting };
+        let slices = self.slices.as_ref();
+        let state = FrameState { canvas: (8, 4), off: &self.off, inputs: &self.inputs, lasting: &lasting, slices };
         self.plan.schedule(&state, &mut self.changes, purpose)
     }
 }
 
 fn encoded(schedule: &Schedule) -> Vec<usize> {
     let draw = |op: &FrameOp| match op {
-        FrameOp::Encode { draw, .. } | FrameOp::EncodeRows { draw, .. } => Some(*draw),
+        FrameOp::Encode { draw, .. } | FrameOp::EncodeRows { draw, .. } | FrameOp::EncodePart { draw, .. } => {
+            Some(*draw)
+        }
         _ => None,
     };
     schedule.ops.iter().filter_map(draw).collect()
@@ -169,4 +174,53 @@ fn a_tiled_draw_counts_and_is_scheduled_by_its_tiles() {
     assert_eq!(plan.schedule_tile((3, 2)), tile);
     let schedule = Frames::of(plan).next(Purpose::Frame);
     assert_eq!((encoded(&schedule), schedule.drawn), (vec![0, 1], 3));
+}
+
+/// Returns the draws of each slice, and checks that only its end is submitted.
+fn slices(schedule: &Schedule) -> Vec<Vec<usize>> {
+    assert!(!schedule.ops.contains(&FrameOp::Submit) && schedule.ops.ends_with(&[FrameOp::SubmitAndWait]));
+    let of = |ops: &[FrameOp]| encoded(&Schedule { ops: ops.to_vec(), ..Schedule::default() });
+    schedule.ops.split_inclusive(|op| *op == FrameOp::SubmitAndWait).map(of).collect()
+}
+
+#[test]
+fn slices_end_before_a_time_and_split_what_takes_longer() {
+    let mut plan = plan(&project());
+    plan.targets.iter_mut().for_each(|target| target.size = PassSize::Fixed(64, 64));
+    let mut frames = Frames::of(plan);
+    let mut times = SliceTimes::new(8.0, 3);
+    frames.slices = Some(times.clone());
+    assert_eq!(slices(&frames.next(Purpose::Frame)), [vec![0], vec![1], vec![2], vec![]], "no time is known");
+    let mut expect = |millis: [f64; 3]| {
+        times = SliceTimes::new(8.0, 3);
+        for (draw, millis) in millis.into_iter().enumerate() {
+            times.measure(&[SlicePart { draw, fraction: 1.0 }], millis);
+        }
+        times.end_frame();
+        frames.slices = Some(times.clone());
+        frames.changes.invalidate();
+        frames.next(Purpose::Frame)
+    };
+    assert_eq!(slices(&expect([2.0, 3.0, 3.0])), [[0, 1, 2]]);
+    assert_eq!(slices(&expect([2.0, 3.0, 4.0])), [vec![0, 1], vec![2]]);
+    let split = expect([2.0, 26.0, 1.0]);
+    assert_eq!(slices(&split), [vec![0], vec![1], vec![1], vec![1], vec![1, 2]]);
+    let parts: Vec<Region> = split.ops.iter().filter_map(part).collect();
+    let quarter = |n: u32| Region { x: 0, y: 16 * n, width: 64, height: 16 };
+    assert_eq!(parts, [0, 1, 2, 3].map(quarter));
+    // The texels are published once, after the last part.
+    let published = split.ops.iter().position(|op| *op == FrameOp::Publish { draw: 1 }).unwrap();
+    assert!(split.ops[..published].iter().rev().take(1).all(|op| part(op) == Some(quarter(3))));
+    assert_eq!((split.drawn, split.steps), (3, vec![1, 1, 1]));
+    // Frames for other purposes are not sliced.
+    frames.changes.invalidate();
+    let timed = frames.next(Purpose::Timed);
+    assert!(timed.ops.iter().all(|op| part(op).is_none()));
+}
+
+fn part(op: &FrameOp) -> Option<Region> {
+    match op {
+        FrameOp::EncodePart { area, .. } => Some(*area),
+        _ => None,
+    }
 }

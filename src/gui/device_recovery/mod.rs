@@ -15,18 +15,20 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// A device that is lost again within this time after another would be lost repeatedly.
+/// A device that is lost three times within this time would be lost repeatedly. After the second, the session has
+/// paused what may have caused it.
 const AGAIN: Duration = Duration::from_secs(10);
 
 /// The losses of the window's device so far.
 #[derive(Default)]
 pub(super) struct DeviceLosses {
-    newest: Option<Instant>,
+    /// The times of the last two, the newest first.
+    newest: [Option<Instant>; 2],
 }
 
 impl DeviceLosses {
-    /// Checks whether the window's device is lost. If so, `reopen_device` opens another one; if that fails or was done shortly
-    /// before, unsaved work is saved and the window closes. Other errors of the device are reported, and the window
+    /// Checks whether the window's device is lost. If so, `reopen_device` opens another one; if that fails or was done twice
+    /// shortly before, unsaved work is saved and the window closes. Other errors of the device are reported, and the window
     /// continues.
     pub(super) fn watch(
         &mut self,
@@ -43,7 +45,8 @@ impl DeviceLosses {
                 return Ok(());
             }
         };
-        let is_again = self.newest.replace(now).is_some_and(|at| now.saturating_duration_since(at) < AGAIN);
+        let is_again = self.newest[1].is_some_and(|at| now.saturating_duration_since(at) < AGAIN);
+        self.newest = [Some(now), self.newest[0]];
         if is_again {
             return Err(GuiError::Lost { reason, unsaved_work: save_unsaved(session) });
         }

@@ -38,10 +38,12 @@ fn repeated_device_loss_saves_unsaved_work() {
     assert!(matches!(watch(0, &mut session), (Ok(()), 0)));
     testing::lose(&gpu);
     assert!(matches!(watch(1, &mut session), (Ok(()), 1)));
-    assert!(matches!(watch(12, &mut session), (Ok(()), 1)), "eleven seconds later is another accident");
+    assert!(matches!(watch(2, &mut session), (Ok(()), 1)), "the session pauses after it");
+    assert!(matches!(watch(12, &mut session), (Ok(()), 1)), "ten seconds later is another accident");
     let warned = |n: &&crate::session::Notice| n.text.contains("Your texts are unchanged");
-    assert_eq!(session.notices().iter().filter(warned).count(), 2);
-    let (Err(error), 0) = watch(13, &mut session) else { panic!("a device that is lost each second") };
+    assert_eq!(session.notices().iter().filter(warned).count(), 3);
+    assert!(matches!(watch(13, &mut session), (Ok(()), 1)));
+    let (Err(error), 0) = watch(14, &mut session) else { panic!("a device that is lost each second") };
     let saved = folder.path().join("mine-recovered-0001");
     assert!(matches!(error, GuiError::Lost { .. }) && error.to_string().contains("the graphics device was lost"));
     assert!(error.to_string().ends_with(&format!("Your unsaved work is in {}", saved.display())), "{error}");

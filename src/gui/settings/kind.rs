@@ -14,6 +14,8 @@ pub(crate) enum Kind {
     FontFile,
     /// The path of a folder.
     Folder,
+    /// The name of a graphics adapter.
+    Adapter,
     /// A device that plays.
     SoundOutput,
     /// A device that records.
@@ -94,6 +96,7 @@ impl Kind {
             Kind::Number(number) => return number.expected(),
             Kind::FontFile => "the path of a .ttf or .otf file, or \"\" for the built-in font",
             Kind::Folder => "the path of a folder, or \"\" for none",
+            Kind::Adapter => "a part of an adapter's name, \"low-power\", or \"\" for the fastest",
             Kind::SoundOutput | Kind::SoundInput => "the name of a device, or \"\" for the default of the system",
             Kind::Address => "an IP address of this computer, such as \"127.0.0.1\", or \"0.0.0.0\" for all of them",
             Kind::MidiDevices => "\"off\", \"all\" or the name of a device",
@@ -108,7 +111,7 @@ impl Kind {
         let is_valid = match self {
             Kind::Switch | Kind::Number(_) => false,
             Kind::Choice(choices) => choices.iter().any(|(name, _)| *name == text),
-            Kind::FontFile | Kind::Folder | Kind::SoundOutput | Kind::SoundInput => true,
+            Kind::FontFile | Kind::Folder | Kind::Adapter | Kind::SoundOutput | Kind::SoundInput => true,
             Kind::Address => IpAddr::from_plain(&plain()).is_some(),
             Kind::MidiDevices => MidiChoice::from_plain(&plain()).is_some(),
             Kind::FilmOptions => return FilmForm::of_options(text).map(drop),

@@ -142,6 +142,15 @@ settings! {
         row("Slow frame limit", Kind::Number(FRAME_TIMEOUT), "Pause the picture when a frame takes longer than this")
             .sends(|settings| Command::Halt(HaltCommand::SetFrameLimit(settings.frame_timeout)))
             .overridden_by(FRAME_TIMEOUT_OPTION);
+    /// The graphics adapter; `None`: the fastest.
+    Adapter(adapter: Option<String> = None), "adapter" =>
+        row(
+            "Graphics adapter",
+            Kind::Adapter,
+            "A part of its name, or low-power for the one that uses less; from the next start on",
+        )
+        .overridden_by(ADAPTER_OPTION)
+        .noted(|session| Some(format!("In use: {}", session.gpu().describe())));
     /// PNG images are saved with the project in them.
     ProjectInImages(project_in_images: bool = true), "project-in-images" =>
         row(
@@ -214,6 +223,7 @@ settings! {
 const FRAME_TIMEOUT: Number = Number { is_any_above_zero: true, ..Number::new(0.05, 86_400.0, 0.5, " s") };
 const PORT: Number = Number { is_whole: true, ..Number::new(1.0, 65_535.0, 1.0, "") };
 const FRAME_TIMEOUT_OPTION: &str = "--frame-timeout";
+const ADAPTER_OPTION: &str = "--adapter";
 const OSC_OPTION: &str = "--osc";
 
 fn has_sound(session: &Session) -> bool {

@@ -18,6 +18,7 @@ fn samples(kind: &Kind) -> Vec<Plain> {
         Kind::Switch => vec![Plain::Switch(true), Plain::Switch(false)],
         Kind::Choice(choices) => choices.iter().map(|(name, _)| Plain::Text((*name).to_owned())).collect(),
         Kind::Number(Number { least, most, .. }) => vec![Plain::Number(*least), Plain::Number(*most)],
+        Kind::Adapter => texts(&["GeForce", "low-power", ""]),
         Kind::Folder => texts(&["/a b/lib", ""]),
         Kind::FontFile => texts(&["/a b/\"c\".ttf", ""]),
         Kind::SoundOutput | Kind::SoundInput => texts(&["Loud \"speakers\" 5.1", ""]),
@@ -166,7 +167,7 @@ fn settings_are_read_and_errors_have_their_line() {
     let (settings, errors) = file::read(text);
     assert_eq!(settings, Settings::default());
     let found: Vec<_> = errors.iter().map(|m| (m.line, m.text.as_str())).collect();
-    let all = "theme, zoom, code-size, code-font, include-folder, word-wrap, compile-on-save, frame-timeout, \
+    let all = "theme, zoom, code-size, code-font, include-folder, word-wrap, compile-on-save, frame-timeout, adapter, \
                project-in-images, volume, mute, audio-output, audio-input, osc, osc-port, osc-address, midi, gamepads, recorder";
     let nothing_near = format!("unknown setting \"editor\"; the settings are {all}");
     let wanted = [

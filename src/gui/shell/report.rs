@@ -118,6 +118,7 @@ impl Shell {
             "playing": transport.playing,
             "fps": transport.fps,
             "mouse_has_picture": self.viewport.mouse_is_down(),
+            "copied_bytes": session.copied_picture_bytes(),
         });
         report.frame(now, transport.playing, frame);
     }

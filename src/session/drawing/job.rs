@@ -4,10 +4,11 @@ use super::{
     changes::PendingChanges,
     gate::Gate,
     history::SeekProgress,
+    renderer::ShownPicture,
     task::{Delivery, Tasks},
 };
 use crate::playback::{Reach, SeekTarget};
-use eddy_engine::{CostClock, EngineError, FrameInputs, PassCost, PassTime, Picture};
+use eddy_engine::{CostClock, EngineError, FrameInputs, PassCost, PassTime};
 use eddy_project::Project;
 use std::time::Duration;
 
@@ -76,7 +77,7 @@ pub(crate) enum Event {
     /// The frame shows a video frame that is too old.
     Late,
     /// The display's picture, if it may have changed and is delivered to the session.
-    Picture(Picture),
+    Picture(ShownPicture),
     Drawn(DrawnFrame),
     /// The engine cannot restart, or cannot draw.
     Failed(EngineError),

@@ -1,8 +1,8 @@
 //! The connection from the session to the engine: jobs go out, pictures and measurements come back.
 //!
-//! Owns the engine, which draws synchronously, or on a thread and a device of its own. It gets one job at a time.
-//! Requests that arrive meanwhile wait here, and a newer one of a kind replaces the older: no queue builds up, and
-//! nothing blocks on a frame. Knows nothing of texts, time or messages to the user.
+//! Owns the engine, which draws synchronously, or on a thread: on a GPU with the window's device, else with one of its
+//! own. It gets one job at a time. Requests that arrive meanwhile wait here, and a newer one of a kind replaces the
+//! older: no queue builds up, and nothing blocks on a frame. Knows nothing of texts, time or messages to the user.
 
 mod changes;
 mod gate;
@@ -17,17 +17,22 @@ pub(super) use changes::{Change, PendingChanges, PendingProgram, ProgramOrigin};
 pub(super) use gate::FrameControl;
 pub(super) use history::SeekProgress;
 pub(super) use job::{Draw, DrawnFrame, Event, Job, JobResult, TileLimit};
-pub(super) use render_thread::{Device, Open, beside};
-pub(super) use renderer::Renderer;
+pub(super) use render_thread::{Device, Open, beside, for_frames};
+pub(super) use renderer::{Renderer, ShownPicture};
 pub(super) use status::EngineStatus;
 pub(super) use task::{Finished, RenderTask, Tasks, Ticket};
 
-use eddy_engine::{EngineError, Picture};
+use eddy_engine::EngineError;
 use eddy_gpu::{Gpu, GpuError, Presenter, Texture};
+use eddy_playback::run::Frame;
 use gate::Gate;
 use render_thread::RenderThread;
+use renderer::Delivery;
 use std::{
-    sync::Arc,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
     thread::JoinHandle,
     time::{Duration, Instant},
 };
@@ -44,6 +49,24 @@ pub(super) struct Drawing {
     in_flight: Option<InFlight>,
     /// Threads that were abandoned and may still be running.
     abandoned: Vec<JoinHandle<()>>,
+    /// The bytes of pictures that were read from one device and written to another.
+    copied_bytes: u64,
+    /// The device that draws and paints is lost, and the window has no other yet.
+    lost: Option<Loss>,
+}
+
+/// The loss of a device.
+pub(super) struct Loss {
+    pub why: String,
+    pub shown: ShownFrame,
+}
+
+/// The data from which another device shows the same frame.
+pub(super) enum ShownFrame {
+    /// The time of a project without state.
+    Time { secs: f64, frame: i32 },
+    /// The inputs of all frames since the reset; empty if they are not known.
+    Run(Vec<Frame>),
 }
 
 struct InFlight {
@@ -68,19 +91,46 @@ struct ThreadBackend {
     open: Open,
     wake: Arc<dyn Fn() + Send + Sync>,
     window: Gpu,
-    display: Texture,
+    display: Display,
+    /// Ends the frame that is being drawn, if the thread is abandoned.
+    stop: Arc<AtomicBool>,
     /// The duration of the newest job on its thread.
     took: Duration,
+}
+
+/// The picture that the window shows.
+enum Display {
+    /// A copy of the engine's, on the window's device.
+    Copy(Box<Texture>),
+    /// The engine's, with its size.
+    Engine(wgpu::TextureView, (u32, u32)),
+}
+
+impl Display {
+    fn view(&self) -> &wgpu::TextureView {
+        match self {
+            Display::Copy(texture) => &texture.level_0,
+            Display::Engine(view, _) => view,
+        }
+    }
+
+    fn size(&self) -> (u32, u32) {
+        match self {
+            Display::Copy(texture) => (texture.width(), texture.height()),
+            Display::Engine(_, size) => *size,
+        }
+    }
 }
 
 impl Drawing {
     /// An engine that does each job synchronously.
     pub(crate) fn inline(gpu: Gpu, size: (u32, u32)) -> Result<Self, EngineError> {
-        let (renderer, device) = (Box::new(Renderer::new(gpu.clone(), size, false)?), Device::open(gpu));
+        let renderer = Box::new(Renderer::new(gpu.clone(), size, Delivery::Inline, Arc::default())?);
+        let device = Device::open(gpu);
         Ok(Self::new(Backend::Inline { renderer, device, done: None }))
     }
 
-    /// An engine on a thread of its own, with another device on the adapter of the window's.
+    /// An engine on a thread of its own, with the device that `open` returns.
     pub(crate) fn on_thread(
         window: Gpu,
         size: (u32, u32),
@@ -88,22 +138,49 @@ impl Drawing {
         wake: Arc<dyn Fn() + Send + Sync>,
     ) -> Result<Self, Error> {
         let device = Device::default();
-        let thread = RenderThread::start(open.clone(), device.clone(), size, window.rasteriser(), wake.clone())?;
-        let display = Presenter::texture(&window, size.0, size.1).map_err(EngineError::from)?;
-        let gate = Gate::default();
-        let remote = ThreadBackend { thread, device, gate, open, wake, window, display, took: Duration::MAX };
+        let stop = Arc::default();
+        let (rasteriser, woken) = (window.rasteriser(), wake.clone());
+        let thread = RenderThread::start(open.clone(), device.clone(), size, Arc::clone(&stop), rasteriser, woken)?;
+        let texture = Presenter::texture(&window, size.0, size.1).map_err(EngineError::from)?;
+        let display = Display::Copy(Box::new(texture));
+        let (gate, took) = (Gate::default(), Duration::MAX);
+        let remote = ThreadBackend { thread, device, gate, open, wake, window, display, stop, took };
         let mut drawing = Self::new(Backend::RenderThread(Box::new(remote)));
         drawing.in_flight = Some(InFlight::opening(Instant::now(), 0));
         Ok(drawing)
     }
 
     fn new(backend: Backend) -> Self {
-        Self { backend, serial: 0, in_flight: None, abandoned: Vec::new() }
+        Self { backend, serial: 0, in_flight: None, abandoned: Vec::new(), copied_bytes: 0, lost: None }
     }
 
     /// Returns whether frames are drawn by the processor that also paints the window.
     pub(crate) fn shares_processor(&self) -> bool {
         matches!(&self.backend, Backend::RenderThread(remote) if remote.window.rasteriser().shares_processor())
+    }
+
+    /// Returns whether the window is painted on the device that draws.
+    pub(crate) fn shares_window_device(&self) -> bool {
+        matches!(&self.backend, Backend::RenderThread(remote) if !remote.window.rasteriser().shares_processor())
+    }
+
+    /// Returns the bytes of pictures that were read from one device and written to another so far.
+    pub(crate) fn copied_bytes(&self) -> u64 {
+        self.copied_bytes
+    }
+
+    /// Records why the device that draws and paints is lost, until [`Drawing::show_on`]. Returns whether that is new.
+    pub(crate) fn lose_window_device(&mut self, why: &str) -> bool {
+        let is_new = self.lost.is_none();
+        self.lost.get_or_insert_with(|| Loss { why: why.to_owned(), shown: ShownFrame::Run(Vec::new()) });
+        is_new
+    }
+
+    /// Sets the frame that the device showed before it was lost.
+    pub(crate) fn keep_shown(&mut self, shown: ShownFrame) {
+        if let Some(loss) = &mut self.lost {
+            loss.shown = shown;
+        }
     }
 
     pub(crate) fn is_on_thread(&self) -> bool {
@@ -130,7 +207,7 @@ impl Drawing {
     pub(crate) fn display(&self) -> &wgpu::TextureView {
         match &self.backend {
             Backend::Inline { renderer, .. } => renderer.engine().display(),
-            Backend::RenderThread(remote) => &remote.display.level_0,
+            Backend::RenderThread(remote) => remote.display.view(),
         }
     }
 
@@ -208,32 +285,51 @@ impl Drawing {
         Some((done, job.serial == self.serial))
     }
 
-    /// Shows a picture of the other device. Returns whether the display is a different texture now.
-    pub(crate) fn show(&mut self, picture: &Picture) -> Result<bool, GpuError> {
+    /// Shows a picture of the engine. Returns whether the display is a different texture now.
+    pub(crate) fn show(&mut self, picture: ShownPicture) -> Result<bool, GpuError> {
         let Backend::RenderThread(remote) = &mut self.backend else { return Ok(false) };
-        let size = (picture.width, picture.height);
-        let is_new = size != (remote.display.width(), remote.display.height());
-        if is_new {
-            remote.display = Presenter::texture(&remote.window, size.0, size.1)?;
+        match picture {
+            ShownPicture::Texture { view, size } => {
+                let is_new = *remote.display.view() != view;
+                remote.display = Display::Engine(view, size);
+                Ok(is_new)
+            }
+            ShownPicture::Bytes(picture) => {
+                let size = (picture.width, picture.height);
+                self.copied_bytes += 2 * picture.bytes.len() as u64;
+                if let Display::Copy(display) = &remote.display
+                    && remote.display.size() == size
+                {
+                    display.write(&remote.window, &picture.bytes);
+                    return Ok(false);
+                }
+                let display = Presenter::texture(&remote.window, size.0, size.1)?;
+                display.write(&remote.window, &picture.bytes);
+                remote.display = Display::Copy(Box::new(display));
+                Ok(true)
+            }
         }
-        remote.display.write(&remote.window, &picture.bytes);
-        Ok(is_new)
     }
 
     /// Shows the picture on a new device, as the previous one is lost. There is no picture until one is delivered.
-    pub(crate) fn show_on(&mut self, window: Gpu) -> Result<(), GpuError> {
-        let Backend::RenderThread(remote) = &mut self.backend else { return Ok(()) };
-        remote.display = Presenter::texture(&window, remote.display.width(), remote.display.height())?;
-        (remote.window, remote.open) = (window.clone(), beside(window));
-        Ok(())
+    /// Returns the loss if the engine has lost its device with it, and must be restarted.
+    pub(crate) fn show_on(&mut self, window: Gpu) -> Result<Option<Loss>, GpuError> {
+        let Backend::RenderThread(remote) = &mut self.backend else { return Ok(None) };
+        let (width, height) = remote.display.size();
+        remote.display = Display::Copy(Box::new(Presenter::texture(&window, width, height)?));
+        (remote.window, remote.open) = (window.clone(), for_frames(window));
+        Ok(self.lost.take())
     }
 
     /// Abandons the thread and its device, and starts new ones. The picture stays until there is another.
     pub(crate) fn restart_thread(&mut self, now: Instant, size: (u32, u32)) -> std::io::Result<()> {
         let Backend::RenderThread(remote) = &mut self.backend else { return Ok(()) };
         let device = Device::default();
+        let stop = Arc::default();
         let ThreadBackend { open, wake, window, .. } = &**remote;
-        let thread = RenderThread::start(open.clone(), device.clone(), size, window.rasteriser(), wake.clone())?;
+        let (rasteriser, wake) = (window.rasteriser(), wake.clone());
+        let thread = RenderThread::start(open.clone(), device.clone(), size, Arc::clone(&stop), rasteriser, wake)?;
+        std::mem::replace(&mut remote.stop, stop).store(true, Ordering::Relaxed);
         (remote.device, remote.gate, remote.took) = (device, Gate::default(), Duration::MAX);
         self.abandoned.extend(std::mem::replace(&mut remote.thread, thread).leave());
         self.in_flight = Some(InFlight::opening(now, self.serial));
@@ -280,3 +376,6 @@ pub(super) enum Error {
     #[error("cannot start a thread for drawing: {0}")]
     Thread(#[from] std::io::Error),
 }
+
+#[cfg(test)]
+mod tests;

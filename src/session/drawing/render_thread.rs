@@ -1,15 +1,16 @@
-//! An engine on a thread of its own, with a device of its own, so that only the next frame waits for a frame.
+//! An engine on a thread of its own, so that only the next frame waits for a frame.
 
 use super::{
     job::{Job, JobResult},
-    renderer::Renderer,
+    renderer::{Delivery, Renderer},
 };
-use eddy_gpu::{Gpu, GpuError, GpuOptions, Rasteriser};
+use eddy_gpu::{Gpu, GpuError, GpuOptions, Rasteriser, Slices};
 use std::{
     any::Any,
     panic::{AssertUnwindSafe, catch_unwind},
     sync::{
         Arc, OnceLock,
+        atomic::AtomicBool,
         mpsc::{Receiver, RecvTimeoutError, Sender, TryRecvError, channel},
     },
     thread::JoinHandle,
@@ -22,6 +23,22 @@ const STACK_BYTES: usize = 256 << 20;
 
 /// Opens a device. Called on the drawing thread.
 pub(crate) type Open = Arc<dyn Fn() -> Result<Gpu, GpuError> + Send + Sync>;
+
+/// The time for which a frame occupies a GPU before the window is painted: half of a frame at 60 Hz.
+const SLICE: Duration = Duration::from_millis(8);
+
+/// Opens the device that draws frames. A GPU has one for all, so that the picture stays there, and frames are submitted
+/// in slices. On the processor it is another device, whose threads have a lower priority.
+pub(crate) fn for_frames(window: Gpu) -> Open {
+    match window.rasteriser().shares_processor() {
+        true => beside(window),
+        false => {
+            let began = Instant::now();
+            let now = Arc::new(move || began.elapsed().as_secs_f64() * 1e3);
+            Arc::new(move || Ok(window.in_slices(Slices { limit: SLICE, now: now.clone() })))
+        }
+    }
+}
 
 /// Opens a device in addition to the window's, or returns the window's own if there is no other: then a slow frame
 /// blocks the window's painting.
@@ -44,11 +61,13 @@ pub(super) struct RenderThread {
 }
 
 impl RenderThread {
-    /// Starts the thread. Its first answer reports whether there is an engine; `wake` is called after each.
+    /// Starts the thread. Its first answer reports whether there is an engine; `wake` is called after each. `stop` ends a
+    /// frame on a device that is shared with the window.
     pub(super) fn start(
         open: Open,
         device: Device,
         size: (u32, u32),
+        stop: Arc<AtomicBool>,
         rasteriser: Rasteriser,
         wake: Arc<dyn Fn() + Send + Sync>,
     ) -> std::io::Result<RenderThread> {
@@ -64,7 +83,9 @@ impl RenderThread {
             let opened = caught(|| open().map_err(|e| e.to_string())).and_then(|opened| opened);
             device.set(opened.clone());
             let renderer = opened.and_then(|gpu| {
-                caught(|| Renderer::new(gpu, size, true).map_err(|e| e.to_string())).and_then(|renderer| renderer)
+                let delivery = if gpu.slices.is_some() { Delivery::Texture } else { Delivery::Bytes };
+                let renderer = || Renderer::new(gpu, size, delivery, stop).map_err(|e| e.to_string());
+                caught(renderer).and_then(|renderer| renderer)
             });
             let mut renderer = match renderer {
                 Ok(renderer) => renderer,

@@ -3,10 +3,11 @@
 use super::{HaltControl, OverdueAction, Verdict};
 use crate::{
     Session,
-    drawing::{PendingChanges, ProgramOrigin},
+    drawing::{PendingChanges, ProgramOrigin, ShownFrame},
     open_project::OpenProject,
     view::{About, Halt, Level},
 };
+use eddy_playback::run::Run;
 use std::time::{Duration, Instant};
 
 /// The maximum wait at exit for a frame that is being drawn.
@@ -95,6 +96,43 @@ impl Session {
 
     /// Handles the loss of the device, or a panic of the drawing thread.
     pub(crate) fn on_device_lost(&mut self, why: &str) {
+        if self.services.drawing.shares_window_device() && self.services.drawing.gpu().is_lost() {
+            // The window opens another one when it is painted next.
+            self.lose_window_device(why);
+            return;
+        }
+        let shown = self.shown_before_loss();
+        if self.recover_from_loss(why, shown) {
+            let text = format!("{why}. Drawing continues on a new device; your texts are unchanged");
+            self.open.notice(Level::Error, text);
+        }
+    }
+
+    /// Records the loss of the device that draws and paints, until the window has another.
+    pub(crate) fn lose_window_device(&mut self, why: &str) {
+        if self.services.drawing.lose_window_device(why) {
+            let shown = self.shown_before_loss();
+            self.services.drawing.keep_shown(shown);
+            self.open.host.changed = true;
+        }
+    }
+
+    /// Returns what is needed to show the same frame on another device. A thread that does not answer has lost it.
+    fn shown_before_loss(&mut self) -> ShownFrame {
+        let clock = &self.open.playback.clock;
+        let time = ShownFrame::Time { secs: clock.time_secs(), frame: clock.next_frame_number() - 1 };
+        if !self.open.has_state() {
+            return time;
+        }
+        match self.take_run() {
+            Some(Run { frames, is_whole: true }) => ShownFrame::Run(frames),
+            _ => ShownFrame::Run(Vec::new()),
+        }
+    }
+
+    /// Opens a new device for frames after a loss, and shows the same frame again. Returns false if the same has just
+    /// happened before: the picture is paused then.
+    pub(crate) fn recover_from_loss(&mut self, why: &str, shown: ShownFrame) -> bool {
         self.film_lost_device();
         let is_again = self.open.halt.device_is_lost(self.open.host.now, self.open.compile.edited_at);
         if is_again {
@@ -104,7 +142,7 @@ impl Session {
                 Level::Error,
                 format!("{why}. Your texts are unchanged: save them, then restart Eddy to continue drawing"),
             );
-            return;
+            return false;
         }
         self.replace_device();
         if self.open.halt.is_new() {
@@ -113,7 +151,11 @@ impl Session {
             self.open.compile_soon();
         }
         self.open.end_halt_of_frame();
-        self.open.notice(Level::Error, format!("{why}. Drawing continues on a new device; your texts are unchanged"));
+        match shown {
+            ShownFrame::Time { secs, frame } => self.open.playback.start_at(secs, Some(frame), self.open.is_playing()),
+            ShownFrame::Run(frames) => self.open.restore_frames(frames),
+        }
+        true
     }
 
     /// Resumes with fewer pixels: few enough to bring a frame below the limit, judging by its time.

@@ -40,6 +40,12 @@ impl Session {
         self.services.display.shown_count
     }
 
+    /// The bytes of pictures that the processor has copied from the device that draws to the one that shows, both ways
+    /// counted. On a GPU it stays 0: both are the same device.
+    pub fn copied_picture_bytes(&self) -> u64 {
+        self.services.drawing.copied_bytes()
+    }
+
     /// The device that shows the picture.
     pub fn gpu(&self) -> &Gpu {
         self.services.drawing.gpu()

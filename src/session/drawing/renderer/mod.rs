@@ -7,9 +7,12 @@ use super::{
     job::{Draw, DrawnFrame, Event, Job, JobResult, TileLimit},
 };
 use crate::playback::SeekTarget;
-use eddy_engine::{CostClock, DrawFor, Engine, EngineError, FrameInputs, PassTime, Program};
-use eddy_gpu::Gpu;
-use std::time::{Duration, Instant};
+use eddy_engine::{CostClock, DrawFor, Engine, EngineError, FrameInputs, PassTime, Picture, Program};
+use eddy_gpu::{Gpu, GpuError};
+use std::{
+    sync::{Arc, atomic::AtomicBool},
+    time::{Duration, Instant},
+};
 
 /// A tile's time is significant if it is at least this fraction of a frame's limit; shorter times are lost in the noise
 /// of other work.
@@ -19,10 +22,32 @@ const BAND: Duration = Duration::from_millis(12);
 /// Frames are drawn again for this long before the picture is shown and another request is handled.
 const SEEK_SLICE: Duration = Duration::from_millis(150);
 
+/// The way in which the session gets the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Delivery {
+    /// The session owns the engine, and reads its display.
+    Inline,
+    /// As the engine's texture: the window is painted on the same device.
+    Texture,
+    /// As bytes, which are copied to the window's device.
+    Bytes,
+}
+
+/// A picture that the engine delivers, with its first row at the top.
+pub(crate) enum ShownPicture {
+    /// The engine draws the next ones into the same texture, until its size changes.
+    Texture {
+        view: wgpu::TextureView,
+        size: (u32, u32),
+    },
+    Bytes(Picture),
+}
+
 pub(crate) struct Renderer {
     engine: Engine,
-    /// The display's picture is copied off the device.
-    delivers_pictures: bool,
+    delivery: Delivery,
+    /// Ends a frame on a device that is shared with the window.
+    stop: Arc<AtomicBool>,
     history: History,
     /// `iFrame` and `iTime` of the targets' contents.
     shown: Option<(i32, f64)>,
@@ -33,12 +58,17 @@ pub(crate) struct Renderer {
 }
 
 impl Renderer {
-    /// `delivers_pictures`: deliver each new picture of the display with the answers.
-    pub(crate) fn new(gpu: Gpu, (width, height): (u32, u32), delivers_pictures: bool) -> Result<Self, EngineError> {
+    pub(crate) fn new(
+        gpu: Gpu,
+        (width, height): (u32, u32),
+        delivery: Delivery,
+        stop: Arc<AtomicBool>,
+    ) -> Result<Self, EngineError> {
         let mut engine = Engine::new(gpu, width, height)?;
         engine.set_timing(true);
-        let history = History::default();
-        Ok(Self { engine, delivers_pictures, history, shown: None, whole_took: Duration::ZERO, is_abandoned: false })
+        engine.stop_by(stop.clone());
+        let (history, whole_took) = (History::default(), Duration::ZERO);
+        Ok(Self { engine, delivery, stop, history, shown: None, whole_took, is_abandoned: false })
     }
 
     pub(crate) fn engine(&self) -> &Engine {
@@ -101,8 +131,8 @@ impl Renderer {
         // The canvas after a resize or a change of program has no valid picture until the next frame.
         let has_drawn = drawn.is_some() || is_seek;
         let is_between = !has_drawn && is_other && !restarts && self.engine.program().is_some();
-        let is_due = self.delivers_pictures && (done.is_display_new || has_drawn);
-        let picture = (is_due && !self.is_abandoned && !is_between).then(|| self.engine.picture());
+        let is_due = done.is_display_new || has_drawn;
+        let picture = self.picture(is_due && !self.is_abandoned && !is_between);
         match drawn.transpose().and_then(|frame| Ok((frame, picture.transpose()?))) {
             Ok((frame, picture)) => {
                 done.events.extend(picture.map(Event::Picture));
@@ -115,6 +145,18 @@ impl Renderer {
         done.events.extend(costs_of.map(|project| Event::Costs(self.engine.pass_costs(&project))));
         done.events.push(Event::Clock(self.engine.cost_clock()));
         done
+    }
+
+    /// Returns the picture for the session, if it is due.
+    fn picture(&mut self, is_due: bool) -> Option<Result<ShownPicture, EngineError>> {
+        match self.delivery {
+            Delivery::Bytes if is_due => Some(self.engine.picture().map(ShownPicture::Bytes)),
+            Delivery::Texture if is_due => {
+                let (view, size) = (self.engine.display().clone(), self.engine.display_size());
+                Some(Ok(ShownPicture::Texture { view, size }))
+            }
+            _ => None,
+        }
     }
 
     /// Restores the contents of the targets before the shown frame, if they are kept.
@@ -139,6 +181,8 @@ impl Renderer {
         let drawn = is_ready.and_then(|()| self.draw(&inputs, is_watched, gate));
         match &drawn {
             Ok(drawn) => self.history.frame_drawn(inputs, self.engine.size(), drawn.took),
+            // Another device draws the same frames again.
+            Err(EngineError::Gpu(GpuError::Lost(_))) => {}
             Err(_) => self.history.restart(false),
         }
         drawn
@@ -161,6 +205,8 @@ impl Renderer {
         done.is_display_new |= self.engine.size() != size;
         match &drawn {
             Ok(drawn) => self.history.frame_redrawn(drawn.took),
+            // Another device draws the same frames again.
+            Err(EngineError::Gpu(GpuError::Lost(_))) => {}
             Err(_) => self.history.restart(false),
         }
         Some(drawn)
@@ -192,7 +238,8 @@ impl Renderer {
                 matches!(change, Change::Restart | Change::Program(_) | Change::Show(_) | Change::Look(_));
             match change {
                 Change::Restart => {
-                    match Renderer::new(self.engine.gpu().clone(), self.engine.size(), self.delivers_pictures) {
+                    let (gpu, stop) = (self.engine.gpu().clone(), self.stop.clone());
+                    match Renderer::new(gpu, self.engine.size(), self.delivery, stop) {
                         Ok(renderer) => *self = renderer,
                         Err(error) => done.events.push(Event::Failed(error)),
                     }
@@ -320,7 +367,7 @@ impl Renderer {
         } else {
             self.engine.draw(inputs)?;
             cpu_micros = micros();
-            if self.delivers_pictures {
+            if self.delivery != Delivery::Inline {
                 self.engine.gpu().wait()?;
             }
             times = self.engine.pass_times();

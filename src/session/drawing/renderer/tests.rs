@@ -24,7 +24,7 @@ fn program(program: Program) -> Change {
 
 fn picture(done: JobResult) -> Option<Picture> {
     done.events.into_iter().find_map(|event| match event {
-        Event::Picture(picture) => Some(picture),
+        Event::Picture(ShownPicture::Bytes(picture)) => Some(picture),
         Event::Failed(error) => panic!("{error}"),
         _ => None,
     })
@@ -37,7 +37,7 @@ fn resize_or_new_program_is_shown_with_its_first_frame() {
     let (media, _) = media::gather(&project, None);
     let build = |gpu: &Gpu| Program::build(gpu, &project, &media, &BuildOptions::default()).unwrap().program;
     let (first, other) = (build(&gpu), build(&gpu));
-    let mut renderer = Renderer::new(gpu, (16, 9), true).unwrap();
+    let mut renderer = Renderer::new(gpu, (16, 9), Delivery::Bytes, Arc::default()).unwrap();
     let mut sizes = |list: Vec<Change>, frame: Option<i32>| {
         let draw = frame.map_or(Draw::Nothing, |frame| Draw::Next(FrameInputs::at_fixed_step(frame, 60.0)));
         let done = renderer.work(Job { changes: changes(list), draw, ..Job::default() });
@@ -56,7 +56,7 @@ fn resize_or_new_program_is_shown_with_its_first_frame() {
 #[test]
 fn resize_without_a_frame_is_reported_as_outdated() {
     let Some(gpu) = testing::gpu() else { return };
-    let mut renderer = Renderer::new(gpu, (16, 9), true).unwrap();
+    let mut renderer = Renderer::new(gpu, (16, 9), Delivery::Bytes, Arc::default()).unwrap();
     let mut events = |list: Vec<Change>, draw: Draw| {
         let done = renderer.work(Job { changes: changes(list), draw, ..Job::default() });
         let name = |event: &Event| match event {
@@ -95,7 +95,7 @@ fn abandoned_frame_is_not_delivered_and_is_finished_before_reads() {
     let (media, _) = media::gather(&project, None);
     let build = || Program::build(&gpu, &project, &media, &BuildOptions::default()).unwrap().program;
     let start = || {
-        let mut renderer = Renderer::new(gpu.clone(), (64, 192), true).unwrap();
+        let mut renderer = Renderer::new(gpu.clone(), (64, 192), Delivery::Bytes, Arc::default()).unwrap();
         let changes = changes([program(build()), Change::Show(PassName::image())]);
         renderer.work(Job { changes, ..Job::default() });
         renderer
