@@ -116,6 +116,7 @@ impl Running {
     pub(crate) fn resize(&mut self, shared: &mut Shared, canvas: (u32, u32)) -> Result<(), EngineError> {
         let new = NewTextures::make(shared, &self.program, canvas, &self.targets)?;
         self.canvas = canvas;
+        self.slices = slice_times(shared, &self.program);
         self.drop_unfinished();
         self.changes.invalidate();
         self.install_textures(shared, new);

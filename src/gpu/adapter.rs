@@ -32,10 +32,14 @@ impl AdapterChoice {
         written.into_iter().flatten().next().map_or_else(Self::default, |text| Self::parse(&text))
     }
 
-    /// Returns the error that there is no such adapter, with the reasons of each instance.
+    /// Returns the error for a choice that fits none of the adapters, with the reason of each instance.
     pub fn missing(&self, reasons: &[String]) -> GpuError {
-        let mut why = reasons.to_vec();
+        let mut why: Vec<&str> = reasons.iter().map(String::as_str).collect();
         why.dedup();
+        // An instance of another backend has others.
+        if why.iter().any(|why| *why != NONE) {
+            why.retain(|why| *why != NONE);
+        }
         let why = why.join("; ");
         match self {
             AdapterChoice::Named(name) => GpuError::NoSuchAdapter { name: name.clone(), why },
@@ -61,6 +65,9 @@ impl AdapterChoice {
     }
 }
 
+/// The reason of an instance without adapters.
+const NONE: &str = "this machine has none";
+
 fn named(instance: &wgpu::Instance, surface: Option<&wgpu::Surface<'_>>, name: &str) -> Result<wgpu::Adapter, String> {
     let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
     let names: Vec<String> = adapters.iter().map(|adapter| adapter.get_info().name).collect();
@@ -69,8 +76,8 @@ fn named(instance: &wgpu::Instance, surface: Option<&wgpu::Surface<'_>>, name: &
     match places.map(|(adapter, _)| adapter).find(is_usable) {
         Some(adapter) => Ok(adapter),
         None if names.iter().any(|own| is_named(own, name)) => Err("it cannot draw on this window".into()),
-        None if names.is_empty() => Err("there is none".into()),
-        None => Err(format!("there is {}", names.join(", "))),
+        None if names.is_empty() => Err(NONE.into()),
+        None => Err(format!("this machine has {}", names.join(", "))),
     }
 }
 

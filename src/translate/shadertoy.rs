@@ -10,6 +10,9 @@ use eddy_project::{
 
 /// The number of times that the fixes of all errors are applied: a fix can lead to the next error, in the expression around it.
 const ROUNDS: usize = 100;
+/// The bytes of code that all rounds together compile at most, as each compiles everything: a large text with conversions
+/// that are nested deeply would take minutes.
+const COMPILED_BYTES: usize = 16 << 20;
 
 /// A project in Shadertoy's form.
 #[derive(Debug)]
@@ -27,7 +30,8 @@ pub fn shadertoy(project: &Project) -> Result<ShadertoyProject, ConversionError>
     let converted = convert::to_shadertoy(project)?;
     let mut project = converted.project;
     let mut errors = errors_of(&project);
-    for _ in 0..ROUNDS {
+    let bytes: usize = project.tab_sources().map(|source| source.text.len()).sum();
+    for _ in 0..rounds(bytes) {
         let fix = conversions(&errors);
         if fix.edits.is_empty() {
             break;
@@ -36,6 +40,11 @@ pub fn shadertoy(project: &Project) -> Result<ShadertoyProject, ConversionError>
         errors = errors_of(&project);
     }
     Ok(ShadertoyProject { project, notes: converted.notes, errors })
+}
+
+/// Returns the number of rounds for a project of this size.
+fn rounds(bytes: usize) -> usize {
+    ROUNDS.min(COMPILED_BYTES / bytes.max(1))
 }
 
 fn errors_of(project: &Project) -> Vec<Diagnostic> {
@@ -69,4 +78,18 @@ fn conversions(errors: &[Diagnostic]) -> Fix {
     }
     edits.sort_by_key(|edit| (edit.span.source.0, edit.span.start));
     Fix::new("Convert whole numbers", edits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eddy_project::limits;
+
+    #[test]
+    fn large_projects_have_fewer_rounds() {
+        assert_eq!([0, 20_000, 1 << 20].map(rounds), [ROUNDS, ROUNDS, 16]);
+        for bytes in [1, 200_000, 1 << 20, limits::ALL_TEXTS.bytes as usize] {
+            assert!(rounds(bytes) * bytes <= COMPILED_BYTES, "{bytes}");
+        }
+    }
 }

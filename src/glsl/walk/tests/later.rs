@@ -14,7 +14,7 @@ const LATER: Dialect = Dialect::Any(Version { number: 460, is_es: false });
 fn assert_all(declarations: &str, conditions: &[&str]) {
     for (zero, storage) in [("0", "const "), ("(int(p.x) - 3)", "")] {
         for condition in conditions {
-            // A call of a function of the text is no constant expression.
+            // A call of a function of the text is not a constant expression.
             let storage = if declarations.is_empty() { storage } else { "" };
             let code = format!(
                 "#define Z {zero}\n#define UZ uint(Z)\n#define FZ float(Z)\n{declarations}\n\
