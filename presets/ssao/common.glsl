@@ -1,11 +1,9 @@
 // Screen-space ambient occlusion over a deferred pipeline of four passes:
 //
-//   1  geometry    meshes into four targets: albedo (w: specular), world position (w: 1), world normal, view position
-//   (w: 1);
-//                  where nothing is, all are 0
-//   2  occlusion   64 samples of the hemisphere over each texel's surface, against the view positions and, from another
-//   geometry
-//                  pass that draws nothing but backs, how far behind those the things end
+//   1  geometry    meshes into three targets: albedo (w: specular), world position (w: the depth, along the axis of the
+//                  camera), world normal; where nothing is, all are 0
+//   2  occlusion   64 samples of the hemisphere over each texel's surface, against the positions and, from another
+//                  geometry pass that draws nothing but backs, how far behind those the things end
 //   3  blur        the mean over 4 x 4 texels, which is one of each turn of the samples
 //   4  lighting    Phong's, with the light of the surroundings weighed by what is open
 //

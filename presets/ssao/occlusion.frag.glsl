@@ -1,5 +1,5 @@
-// The part of the kernel that is hidden. Channel 0 has the world's normals, channel 1 positions as the camera sees
-// them, channel 2 the kernels, channel 3 how far behind the camera's plane the nearest back of a thing is.
+// The part of the kernel that is hidden. Channel 0 has the world's normals, channel 1 its positions and depths, channel
+// 2 the kernels, channel 3 how far behind the camera's plane the nearest back of a thing is.
 
 #iUniform float radius = 0.6 in { 0.02, 2.0 } // of the hemisphere, in units of the scene
 #iUniform float bias = 0.01 in { 0.0, 0.1 }   // nearer than this to a sample, or to the surface itself, nothing hides
@@ -24,23 +24,25 @@ bool isOutside(ivec2 q) {
 }
 
 // Whether a point is inside of what the camera sees there: between its front and its back. What is on the surface's own
-// plane does not hide it, at however low an angle that is seen.
-bool isInside(vec3 point, vec3 here, vec3 normal) {
+// plane does not hide it, at however low an angle that is seen. `point` is as the camera sees it, the surface in the
+// world.
+bool isInside(vec3 point, vec3 surface, vec3 normal) {
     if (point.z > -1e-3) return false;
     ivec2 q = texelOf(point);
     if (isOutside(q)) return false;
     vec4 there = texelFetch(iChannel1, q, 0);
-    if (there.w == 0.0 || there.z < point.z + bias || dot(there.xyz - here, normal) < bias) return false;
+    if (there.w == 0.0 || -there.w < point.z + bias || dot(there.xyz - surface, normal) < bias) return false;
     float back = texelFetch(iChannel3, q, 0).x; // 0 where there is none: the room has no other side
-    return back == 0.0 || back > there.z || point.z > back;
+    return back == 0.0 || back > -there.w || point.z > back;
 }
 
 void main() {
     ivec2 p = ivec2(gl_FragCoord.xy);
-    vec4 here = texelFetch(iChannel1, p, 0);
+    vec4 surface = texelFetch(iChannel1, p, 0);
     occluded = 0.0;
-    if (here.w == 0.0) return;
-    vec3 normal = normalize(mat3(iView) * texelFetch(iChannel0, p, 0).xyz);
+    if (surface.w == 0.0) return;
+    vec3 worldNormal = normalize(texelFetch(iChannel0, p, 0).xyz);
+    vec3 here = (iView * vec4(surface.xyz, 1.0)).xyz, normal = normalize(mat3(iView) * worldNormal);
 
     // A frame about the normal (J. Frisvad 2012, without its pole: T. Duff et al., "Building an Orthonormal Basis,
     // Revisited", JCGT 6, 2017), turned by one of 16 angles. Neighbours in the square of 4 x 4 texels are far apart in
@@ -57,8 +59,8 @@ void main() {
         int rays = max(samples / 4, 1);
         for (int i = 0; i < rays; i++) {
             for (int j = 0; j < 4; j++) {
-                vec3 point = here.xyz + frame * texelFetch(iChannel2, ivec2((i * 5 & 15) * 4 + j, 3), 0).xyz;
-                if (!isInside(point, here.xyz, normal)) continue;
+                vec3 point = here + frame * texelFetch(iChannel2, ivec2((i * 5 & 15) * 4 + j, 3), 0).xyz;
+                if (!isInside(point, surface.xyz, worldNormal)) continue;
                 sum += float(4 - j);
                 break;
             }
@@ -67,12 +69,12 @@ void main() {
         return;
     }
     for (int i = 0; i < samples; i++) {
-        vec3 point = here.xyz + frame * texelFetch(iChannel2, ivec2(i * 37 & 63, method == 1 ? 0 : 2), 0).xyz;
+        vec3 point = here + frame * texelFetch(iChannel2, ivec2(i * 37 & 63, method == 1 ? 0 : 2), 0).xyz;
         if (method == 1) {
-            sum += isInside(point, here.xyz, normal) ? 1.0 : 0.0;
+            sum += isInside(point, surface.xyz, worldNormal) ? 1.0 : 0.0;
         } else if (point.z < -1e-3 && !isOutside(texelOf(point))) {
             vec4 there = texelFetch(iChannel1, texelOf(point), 0);
-            sum += there.w > 0.0 && there.z > point.z && there.z - here.z < radius ? 1.0 : 0.0;
+            sum += there.w > 0.0 && -there.w > point.z && surface.w - there.w < radius ? 1.0 : 0.0;
         }
     }
     occluded = sum / float(max(samples, 1));

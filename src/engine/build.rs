@@ -2,7 +2,7 @@
 
 use super::{
     BuildError, EngineError, Sources,
-    channels::{ChannelBinder, filter_mode, filter_mode_of_fill},
+    channels::{ChannelBinder, filter_mode, filter_mode_of_fill, size_warnings},
     compile::PassOptions,
     draft::{CompiledParts, DrawDraft},
     pipelines::PipelineCache,
@@ -258,7 +258,7 @@ impl Builder {
         let mut probe_of_image = None;
         for (index, pass) in project.passes.iter().enumerate().filter(|(_, pass)| build.compiles(&pass.id)) {
             let options = self.options(project, media, index, build);
-            let mut said = Vec::new();
+            let mut said = size_warnings(&self.gpu, media, pass);
             let fills = FillKind::ALL.map(|kind| {
                 let texels = pass.fill(kind).and_then(|fill| media.fill(fill.value.path()?));
                 let by_hand = texels.is_some_and(|t| filter_mode_of_fill(&self.gpu, t) == FilterMode::Shader);

@@ -5,11 +5,12 @@ use super::{
     program::{BoundChannel, BoundExternal, FilterMode},
     uploads::Uploads,
 };
+use eddy_diag::Diagnostic;
 use eddy_glsl::{ChannelUse, MAX_CHANNELS, interface};
 use eddy_gpu::{Binding, Gpu, GpuError};
 use eddy_graph::effective_sampler;
 use eddy_media::{MediaKey, MediaSet, Texels};
-use eddy_project::{Channel, Filter, Input, PassSize, Project};
+use eddy_project::{Channel, Filter, Input, Media, Pass, PassSize, Project};
 use eddy_texture::{Dimension, TexelFormat, TextureShape};
 use std::{path::Path, sync::Arc};
 
@@ -57,7 +58,7 @@ impl ChannelBinder<'_> {
         filter_mode: FilterMode,
         mips: bool,
     ) -> Result<BoundChannel, GpuError> {
-        let source = channel.and_then(|c| Some((c, external::of_channel(self.media, c)?)));
+        let source = channel.and_then(|c| Some((c, source_on(self.gpu, self.media, c)?)));
         let resolution = source.as_ref().map_or([0.0; 3], |(_, source)| resolution(source.shape()));
         let clock = source.as_ref().map_or(ChannelClock::Stopped, |(_, source)| source.clock());
         let is_readable = |shape: TextureShape| (used.texture || used.sampler) && shape.dimension == dimension;
@@ -110,6 +111,30 @@ impl ChannelBinder<'_> {
         };
         Ok(BoundExternal { index, texture: self.externals[index].texture.clone() })
     }
+}
+
+/// Returns the source of a channel's texture, unless it is larger than the textures of the device: then the channel reads
+/// as an unloaded one, and [`size_warnings`] says so.
+fn source_on(gpu: &Gpu, media: &MediaSet, channel: &Channel) -> Option<Box<dyn ExternalTexture>> {
+    external::of_channel(media, channel).filter(|source| gpu.check_shape("", source.shape()).is_ok())
+}
+
+/// Returns a warning for each channel of a pass whose picture, volume or video is larger than the textures of the
+/// device.
+pub(super) fn size_warnings(gpu: &Gpu, media: &MediaSet, pass: &Pass) -> Vec<Diagnostic> {
+    let warning = |(slot, channel): (usize, &Channel)| {
+        let shape = external::of_channel(media, channel)?.shape();
+        let name = match channel.input.media() {
+            Some(Media::File(path) | Media::Picked(path)) => path.display().to_string(),
+            Some(Media::Builtin(name)) => name.clone(),
+            Some(Media::Site { path, .. }) => path.clone(),
+            None => channel.input.row().title.to_owned(),
+        };
+        let what = format!("channel {slot} of {} is black: {name}", pass.id.title());
+        let error = gpu.check_shape(&what, shape).err()?;
+        Some(Diagnostic::warning(None, error.to_string()).hint("scale it down, or open the project on another device"))
+    };
+    pass.bindings.iter().filter_map(warning).collect()
 }
 
 /// Returns the channel's `iChannelResolution`. Shadertoy leaves that of a cubemap's files at zero.

@@ -22,6 +22,8 @@ pub struct GpuOptions {
     /// Let naga add its own checks to shaders (indices, loops, integer division), which Eddy's front end makes
     /// unnecessary: this is used to measure their cost.
     pub runtime_checks: bool,
+    /// Use no more than these limits: this is used to test weaker devices.
+    pub limits: Option<wgpu::Limits>,
     /// Treat the device as a GPU even if the processor draws: this is used to test what only GPUs do.
     pub treat_as_gpu: bool,
 }
@@ -33,6 +35,7 @@ impl Default for GpuOptions {
             use_float32_filtering: true,
             use_timestamps: true,
             runtime_checks: false,
+            limits: None,
             treat_as_gpu: false,
         }
     }
@@ -59,8 +62,12 @@ pub enum GpuError {
          choose smaller formats"
     )]
     TargetsTooLarge { what: String, bytes: u32, limit: u32 },
-    #[error("{what} has {count} targets, but this device draws into at most {limit} at once")]
-    TooManyTargets { what: String, count: u32, limit: u32 },
+    #[error("{what} of {width}x{height}x{depth} voxels: this device has volumes of at most {limit}x{limit}x{limit}")]
+    VolumeTooLarge { what: String, width: u32, height: u32, depth: u32, limit: u32 },
+    #[error("{what} has {count} {kind}, but this device allows {limit} at once")]
+    TooMany { what: String, kind: &'static str, count: u32, limit: u32 },
+    #[error("the uniforms of {what} take {bytes} bytes, but this device allows {limit}: use fewer or shorter ones")]
+    UniformsTooLarge { what: String, bytes: u64, limit: u64 },
     #[error("the graphics device ran out of memory for {0}")]
     OutOfMemory(String),
     #[error(
@@ -215,7 +222,7 @@ impl Gpu {
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("eddy"),
             required_features: features,
-            required_limits: adapter.limits(),
+            required_limits: options.limits.iter().fold(adapter.limits(), |all, some| all.or_worse_values_from(some)),
             // Large textures get dedicated memory, which is released when the canvas becomes smaller. With the other
             // hint, blocks of hundreds of megabytes stay allocated as long as each contains a small buffer.
             memory_hints: wgpu::MemoryHints::MemoryUsage,
@@ -280,18 +287,6 @@ impl Gpu {
     pub fn is_same_device(&self, other: &Gpu) -> bool {
         // Ids of wgpu's devices are those of their instances.
         Arc::ptr_eq(&self.state, &other.state)
-    }
-
-    /// Rejects a size that no target can have, with a better error than the graphics layer's.
-    pub fn check_size(&self, what: &str, width: u32, height: u32) -> Result<(), GpuError> {
-        if width == 0 || height == 0 {
-            return Err(GpuError::Empty { what: what.into(), width, height });
-        }
-        let limit = self.device.limits().max_texture_dimension_2d;
-        if width > limit || height > limit {
-            return Err(GpuError::TooLarge { what: what.into(), width, height, limit });
-        }
-        Ok(())
     }
 
     /// Runs code that creates graphics objects, and returns an error of the graphics layer instead of a broken object.

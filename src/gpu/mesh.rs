@@ -4,6 +4,7 @@ use super::{
     Binding, Gpu, GpuError, Pipeline, Shader,
     bindings::{layouts, pipeline_layout},
     full_screen::color_targets,
+    limits::{check_bindings, check_varyings},
     pipeline::shader_module,
 };
 
@@ -32,6 +33,8 @@ impl Pipeline {
     /// Creates a pipeline for meshes; as with [`Pipeline::new`], the modules must be valid.
     pub fn for_meshes(gpu: &Gpu, descriptor: MeshPipelineDescriptor<'_>) -> Result<Pipeline, GpuError> {
         let d = descriptor;
+        check_bindings(gpu, d.label, d.groups)?;
+        check_varyings(gpu, d.label, d.vertex.module)?;
         let layouts = layouts(gpu, d.label, d.groups, wgpu::ShaderStages::VERTEX_FRAGMENT);
         let attributes: Vec<_> = d
             .attributes
@@ -141,42 +144,4 @@ pub fn depth_buffer(gpu: &Gpu, label: &str, width: u32, height: u32) -> Result<w
         })
     })?;
     Ok(texture.create_view(&Default::default()))
-}
-
-/// Returns an error if the device does not support targets of these formats together, by the rule of WebGPU,
-/// "calculating color attachment bytes per sample".
-pub fn check_targets(gpu: &Gpu, what: &str, formats: &[wgpu::TextureFormat]) -> Result<(), GpuError> {
-    let limits = gpu.device.limits();
-    let bytes = bytes_per_sample(formats);
-    if bytes > limits.max_color_attachment_bytes_per_sample {
-        let limit = limits.max_color_attachment_bytes_per_sample;
-        return Err(GpuError::TargetsTooLarge { what: what.into(), bytes, limit });
-    }
-    if formats.len() as u32 > limits.max_color_attachments {
-        let (count, limit) = (formats.len() as u32, limits.max_color_attachments);
-        return Err(GpuError::TooManyTargets { what: what.into(), count, limit });
-    }
-    Ok(())
-}
-
-fn bytes_per_sample(formats: &[wgpu::TextureFormat]) -> u32 {
-    formats.iter().fold(0u32, |sum, format| {
-        let align = format.target_component_alignment().unwrap_or(1);
-        sum.next_multiple_of(align) + format.target_pixel_byte_cost().unwrap_or(0)
-    })
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn bytes_of_targets_are_counted_by_the_rules_of_webgpu() {
-        use wgpu::TextureFormat as F;
-        assert_eq!(bytes_per_sample(&[F::Rgba32Float; 4]), 64);
-        // Eight bits per component count twice.
-        assert_eq!(bytes_per_sample(&[F::Rgba8Unorm; 4]), 32);
-        // The byte is rounded up for the alignment of the next format.
-        assert_eq!(bytes_per_sample(&[F::R8Unorm, F::R32Float]), 8);
-    }
 }

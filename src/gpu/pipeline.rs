@@ -3,7 +3,9 @@
 use super::{
     Binding, Gpu, GpuError,
     bindings::{layouts, pipeline_layout},
-    full_screen, spirv,
+    full_screen,
+    limits::check_bindings,
+    spirv,
 };
 
 /// A shader from the front end.
@@ -37,6 +39,7 @@ impl Pipeline {
     /// nevertheless, that is a bug in Eddy, which is returned as [`GpuError::Refused`].
     pub fn new(gpu: &Gpu, descriptor: FragmentPipelineDescriptor<'_>) -> Result<Pipeline, GpuError> {
         let FragmentPipelineDescriptor { label, shader, entry_point, groups, targets } = descriptor;
+        check_bindings(gpu, label, groups)?;
         let layouts = layouts(gpu, label, groups, wgpu::ShaderStages::FRAGMENT);
         let raw = gpu.guarded(label, || {
             let layout = pipeline_layout(gpu, label, &layouts);

@@ -4,7 +4,7 @@
 //! this module knows what follows from that. For a GPU its methods have no effect, or return what holds for a separate
 //! device.
 
-use super::Gpu;
+use super::{Gpu, GpuOptions};
 use std::time::Duration;
 
 /// A software rasteriser draws squares with this many pixels a side, each on one core.
@@ -95,6 +95,21 @@ impl Gpu {
     pub fn rasteriser(&self) -> Rasteriser {
         let is_software = self.info.device_type == wgpu::DeviceType::Cpu && !self.treat_as_gpu;
         if is_software { Rasteriser::software() } else { Rasteriser::GPU }
+    }
+
+    /// Returns the device for work beside the window, such as films, the sound pass and thumbnails. On a GPU it is this
+    /// one: each further device takes 50 to 200 MB of the driver's memory. Where the processor draws, it is another one,
+    /// whose threads inherit the priority of the calling thread; if there is none, it is this one, too.
+    pub fn for_background(&self) -> Gpu {
+        if !self.rasteriser().shares_processor() {
+            return self.clone();
+        }
+        Gpu::on_adapter(&self.info, &GpuOptions::default()).unwrap_or_else(|error| {
+            log::warn!(
+                "work in the background shares the window's device, as another one could not be opened: {error}"
+            );
+            self.clone()
+        })
     }
 }
 

@@ -20,6 +20,20 @@ pub fn gpu_with(options: &GpuOptions) -> Option<Gpu> {
     None
 }
 
+/// Returns a device with the limits of the weakest ones that Eddy is made for: those of OpenGL ES 3.0 with textures of
+/// 4,096 texels, as on a Raspberry Pi 4, and 32 bytes per sample and no filtering of 32-bit floats, as on Apple's first
+/// GPUs.
+pub fn weak_gpu() -> Option<Gpu> {
+    let limits = wgpu::Limits {
+        max_texture_dimension_1d: 4096,
+        max_texture_dimension_2d: 4096,
+        max_color_attachment_bytes_per_sample: 32,
+        ..wgpu::Limits::downlevel_webgl2_defaults()
+    };
+    let limits = Some(limits);
+    gpu_with(&GpuOptions { limits, use_float32_filtering: false, use_timestamps: false, ..GpuOptions::default() })
+}
+
 /// Makes a device refuse everything from now on, as one does that the driver has reset.
 pub fn lose(gpu: &Gpu) {
     gpu.device.destroy();

@@ -78,7 +78,7 @@ impl Texture {
     /// Creates a texture. Returns an error for a size that no target can have, and if memory is exhausted.
     pub fn new(gpu: &Gpu, descriptor: &TextureDescriptor<'_>) -> Result<Texture, GpuError> {
         let TextureDescriptor { label, shape, is_target } = *descriptor;
-        gpu.check_size(label, shape.width, shape.height)?;
+        gpu.check_shape(label, shape)?;
         let mut usage =
             wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC | wgpu::TextureUsages::COPY_DST;
         let is_volume = shape.dimension == Dimension::D3;

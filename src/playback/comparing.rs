@@ -8,7 +8,7 @@ use crate::{
 use eddy_background::{Control, Count};
 use eddy_diag as diag;
 use eddy_engine::{BuildError, BuildOptions, CameraFrame, Engine, EngineError, FrameInputs, Pixels, Program, Trial};
-use eddy_gpu::{Gpu, GpuOptions};
+use eddy_gpu::Gpu;
 use eddy_media::{self as media, MediaSet};
 use eddy_project::{self as project, Origin, PassName, Project};
 use std::{
@@ -107,8 +107,7 @@ pub fn compare(job: CompareJob, control: &Control<Count>) -> Result<Comparison, 
         frames.drain(..frames.len() - 1);
     }
     let is_cut = !is_whole && !is_stateless;
-    // A project that has never been drawn may lose its device: use a separate one from the picture's, if possible.
-    let gpu = Gpu::on_adapter(&gpu.info, &GpuOptions::default()).unwrap_or(gpu);
+    let gpu = gpu.for_background();
     let side = |project: &Project, name: &str| {
         let media = || media::gather(project, media_dir.as_deref()).0;
         let made = ComparedEngine::new(&gpu, project, &pass, (media(), camera.clone()), frames[0].size, trial.clone());

@@ -2,7 +2,7 @@
 
 use super::{
     Session,
-    drawing::{Change, Draw, DrawnFrame, Event, Job, JobResult, Loss, ShownPicture, Tasks, TileLimit, beside},
+    drawing::{Change, Draw, DrawnFrame, Event, Job, JobResult, Loss, ShownPicture, Tasks, TileLimit, for_background},
     open_project::OpenProject,
     view::{About, Level},
 };
@@ -243,7 +243,7 @@ impl Session {
             self.lose_window_device("the graphics device was lost");
         }
         let lost = self.services.drawing.show_on(window.clone())?;
-        self.services.sound_pass.change_device(beside(window));
+        self.services.sound_pass.change_device(for_background(window));
         self.services.display.generation += 1;
         self.services.display.shown_count += 1;
         self.open.host.changed = true;

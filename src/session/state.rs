@@ -44,7 +44,7 @@ impl Session {
         wake: Arc<dyn Fn() + Send + Sync>,
         options: SessionOptions,
     ) -> Result<Session, SessionError> {
-        let sound_pass = SoundPass::new(drawing::beside(gpu.clone()), gpu.rasteriser(), wake.clone());
+        let sound_pass = SoundPass::new(drawing::for_background(gpu.clone()), gpu.rasteriser(), wake.clone());
         // An arbitrary size until the first tick, which knows the viewport.
         let size = (640, 360);
         let engine = EngineStatus::new(&gpu, size);

@@ -126,4 +126,5 @@ mod walker_corpus;
 mod walker_meshes;
 mod walker_presets;
 mod walker_textures;
+mod weak_devices;
 mod web_page;

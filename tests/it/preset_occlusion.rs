@@ -101,7 +101,7 @@ fn occlusion_on_meshes_matches_ray_casting() {
             return None;
         }
         let [at, normal] = [place, normal].map(|t| [0, 1, 2].map(|i| f64::from(t[i])));
-        // Positions have 11 bits of precision, and meshes have facets.
+        // Meshes have facets.
         let from = add(at, normal, 2.5e-3);
         let expected = hidden(from, unit(normal), 32, |from, ray| meshes.hit(from, ray, radius), falloff);
         Some((1.0 - f64::from(texel(&open, x, y)[0]), expected))

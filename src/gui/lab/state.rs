@@ -3,7 +3,7 @@
 use super::model::{ExtentResults, PlotData};
 use crate::{
     background::{Background, Control},
-    gpu::{Gpu, GpuOptions},
+    gpu::Gpu,
     gui::ui_output::UiOutput,
     lab::{
         self, Extent, LabError, Point, Results, Shard, Study,
@@ -26,7 +26,7 @@ use std::{
 /// The panel's state.
 pub(crate) struct Lab {
     pub(super) wake: Arc<dyn Fn() + Send + Sync>,
-    pub(super) adapter: wgpu::AdapterInfo,
+    pub(super) gpu: Gpu,
     pub(super) studies: Vec<&'static Study>,
     pub(super) study: usize,
     pub(super) extent: Extent,
@@ -63,10 +63,10 @@ pub(super) enum Folder {
 }
 
 impl Lab {
-    pub(crate) fn new(gpu: &Gpu, wake: Arc<dyn Fn() + Send + Sync>) -> Self {
+    pub(crate) fn new(gpu: Gpu, wake: Arc<dyn Fn() + Send + Sync>) -> Self {
         Self {
             wake,
-            adapter: gpu.info.clone(),
+            gpu,
             studies: studies::all(),
             study: 0,
             extent: Extent::Quick,
@@ -157,6 +157,11 @@ impl Lab {
         }
     }
 
+    /// Measures on this device from now on.
+    pub(crate) fn change_device(&mut self, gpu: Gpu) {
+        self.gpu = gpu;
+    }
+
     /// Measures the missing points of the selected study. If none is missing, measures all again in a temporary
     /// folder.
     pub(super) fn start(&mut self) {
@@ -175,8 +180,8 @@ impl Lab {
             known.results.write(&out).map_err(|e| e.to_string())?;
             self.update_plot();
         }
-        let adapter = self.adapter.clone();
-        let open = move || Gpu::on_adapter(&adapter, &GpuOptions::default());
+        let gpu = self.gpu.clone();
+        let open = move || Ok(gpu.for_background());
         let options = Options { out, extent, repeats: cost::MIN_REPEATS, shard: Shard::WHOLE };
         let background = BackgroundRun::start(open, vec![study], options, self.wake.clone());
         let background = background.map_err(|e| format!("cannot start a thread for the lab: {e}"))?;

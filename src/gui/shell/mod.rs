@@ -90,7 +90,7 @@ impl Shell {
             code: CodePanel::new(),
             files: Files::new(wake.clone()),
             browser: Browser::default(),
-            lab: Lab::new(&gpu, wake.clone()),
+            lab: Lab::new(gpu.clone(), wake.clone()),
             recorder: Recorder::default(),
             project_ui: ProjectUiState::default(),
             project_serial: 0,
@@ -132,6 +132,7 @@ impl Shell {
         self.live = Live::default();
         self.project_ui.buffers.forget_texture();
         self.project_ui.compare.forget_textures();
+        self.lab.change_device(gpu.clone());
         self.thumbnails = Thumbnails::new(gpu, wake);
     }
 

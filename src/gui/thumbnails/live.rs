@@ -1,11 +1,11 @@
 //! The one preset whose picture moves.
 //!
-//! It is drawn on a thread and a device of its own, only while requested, so that neither the window nor thumbnails of
-//! textures wait for a frame.
+//! It is drawn on a thread of its own, only while requested, so that neither the window nor thumbnails of textures wait
+//! for a frame.
 
 use crate::{
     engine::{BuildOptions, Engine, FrameInputs, Program},
-    gpu::{Gpu, GpuOptions},
+    gpu::Gpu,
     media,
     project::presets,
 };
@@ -81,10 +81,10 @@ impl Live {
         let (gpu, wake, wanted) = (self.gpu.clone(), self.wake.clone(), self.wanted.clone());
         let work = move || {
             gpu.rasteriser().lower_background_priority();
-            let mut device = None;
+            let gpu = gpu.for_background();
             while let Some(name) = wanted.next() {
                 // A panic only ends this picture.
-                let drawn = catch_unwind(AssertUnwindSafe(|| draw(&gpu, &mut device, &name, &wanted, &sender, &*wake)));
+                let drawn = catch_unwind(AssertUnwindSafe(|| draw(&gpu, &name, &wanted, &sender, &*wake)));
                 if let Err(why) = drawn.unwrap_or_else(|_| Err("this is a bug in Eddy".into())) {
                     log::warn!("{name} cannot be played: {why}");
                 }
@@ -154,20 +154,12 @@ impl LiveRequests {
 
 /// Draws a preset for as long as it is requested.
 fn draw(
-    window: &Gpu,
-    device: &mut Option<Gpu>,
+    gpu: &Gpu,
     name: &str,
     wanted: &LiveRequests,
     frames: &SyncSender<(String, ColorImage)>,
     wake: &(dyn Fn() + Send + Sync),
 ) -> Result<(), String> {
-    let gpu = match device {
-        Some(gpu) => gpu,
-        None => {
-            let gpu = Gpu::on_adapter(&window.info, &GpuOptions::default()).map_err(|e| e.to_string())?;
-            device.insert(gpu)
-        }
-    };
     let project = presets::load(name).map_err(|e| e.to_string())?.project;
     let (set, _) = media::gather(&project, None);
     let built = Program::build(gpu, &project, &set, &BuildOptions::default()).map_err(|e| e.to_string())?;

@@ -137,7 +137,7 @@ fn in_the_room(rig: &Rig, setup: &Setup) -> Result<Vec<Occluded>, LabError> {
             return None;
         }
         let [at, normal] = [place, normal].map(|t| [t[0], t[1], t[2]]);
-        // Positions have 11 bits, and meshes have facets.
+        // Meshes have facets.
         let from = add(at, normal, 2.5e-3);
         let hit = |from, ray| meshes.hit(from, ray, ROOM_RADIUS);
         let expected = hidden(from, unit(normal), SIDE, hit, falloff);

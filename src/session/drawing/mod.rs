@@ -17,7 +17,7 @@ pub(super) use changes::{Change, PendingChanges, PendingProgram, ProgramOrigin};
 pub(super) use gate::FrameControl;
 pub(super) use history::SeekProgress;
 pub(super) use job::{Draw, DrawnFrame, Event, Job, JobResult, TileLimit};
-pub(super) use render_thread::{Device, Open, beside, for_frames};
+pub(super) use render_thread::{Device, Open, for_background, for_frames};
 pub(super) use renderer::{Renderer, ShownPicture};
 pub(super) use status::EngineStatus;
 pub(super) use task::{Finished, RenderTask, Tasks, Ticket};

@@ -4,7 +4,7 @@ use super::{
     job::{Job, JobResult},
     renderer::{Delivery, Renderer},
 };
-use eddy_gpu::{Gpu, GpuError, GpuOptions, Rasteriser, Slices};
+use eddy_gpu::{Gpu, GpuError, Rasteriser, Slices};
 use std::{
     any::Any,
     panic::{AssertUnwindSafe, catch_unwind},
@@ -31,7 +31,7 @@ const SLICE: Duration = Duration::from_millis(8);
 /// in slices. On the processor it is another device, whose threads have a lower priority.
 pub(crate) fn for_frames(window: Gpu) -> Open {
     match window.rasteriser().shares_processor() {
-        true => beside(window),
+        true => for_background(window),
         false => {
             let began = Instant::now();
             let now = Arc::new(move || began.elapsed().as_secs_f64() * 1e3);
@@ -40,15 +40,9 @@ pub(crate) fn for_frames(window: Gpu) -> Open {
     }
 }
 
-/// Opens a device in addition to the window's, or returns the window's own if there is no other: then a slow frame
-/// blocks the window's painting.
-pub(crate) fn beside(window: Gpu) -> Open {
-    Arc::new(move || {
-        Gpu::on_adapter(&window.info, &GpuOptions::default()).or_else(|e| {
-            log::warn!("frames are drawn on the window's own GPU device, as a second one could not be opened: {e}");
-            Ok(window.clone())
-        })
-    })
+/// Opens the device for work beside the window ([`Gpu::for_background`]).
+pub(crate) fn for_background(window: Gpu) -> Open {
+    Arc::new(move || Ok(window.for_background()))
 }
 
 /// The drawing thread. When dropped, it ends after the job in progress, which is not waited for.

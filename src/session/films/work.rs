@@ -1,4 +1,4 @@
-//! The film thread: draws a range of frames on a device of its own, and completes live recordings.
+//! The film thread: draws a range of frames, and completes live recordings.
 
 use super::{
     FilmDone, FilmOrder, FilmProgress, FilmStage,
@@ -11,7 +11,7 @@ use eddy_film::{
     Cancel, Encoding, Fade, FilmSound, FilmTime, Rate, Seam, Shape, ShownPass, Still, Writer, check_tools, has_sound,
     soundtrack,
 };
-use eddy_gpu::{Gpu, GpuOptions};
+use eddy_gpu::Gpu;
 use eddy_media::{self as media, MediaSet};
 use eddy_playback::{
     comparing::first_error,
@@ -81,7 +81,7 @@ impl LateSound {
     ) -> Result<Option<Vec<[i16; 2]>>, Stopped> {
         let Self { gpu, trial, heard } = self;
         let open = |pass: &FilmSoundPass| {
-            let gpu = Gpu::on_adapter(&gpu.info, &GpuOptions::default()).unwrap_or_else(|_| gpu.clone());
+            let gpu = gpu.for_background();
             let mut offline = Offline::new(&gpu, (16, 16), ScriptedInputs::new(60.0)).map_err(OfflineError::from)?;
             offline.set_sound_date(pass.date);
             let options = BuildOptions { trial: trial.clone(), ..BuildOptions::sound() };
@@ -197,9 +197,7 @@ impl Drawing<'_> {
         let count = frames.len() as u32;
         self.control.report(FilmProgress { of: count, ..FilmProgress::default() });
         check_tools(&order.encoding, order.size, &Tools::default()).map_err(|error| error.to_string())?;
-        // A project that has never been drawn at this size may lose its device: use a separate one from the picture's,
-        // if possible.
-        let gpu = Gpu::on_adapter(&self.job.gpu.info, &GpuOptions::default()).unwrap_or_else(|_| self.job.gpu.clone());
+        let gpu = self.job.gpu.for_background();
         let (media, _) = media::gather(&self.job.project, self.job.media_dir.as_deref());
         let mut offline = self.open(&gpu, &media, self.job.pass.clone())?;
         let has_state = offline.has_state().map_err(OfflineError::from)?;
