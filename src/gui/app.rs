@@ -4,17 +4,18 @@
 //! when an event, the session or egui requests one.
 
 use super::{
-    GuiError, Opened, Options,
+    GuiError, Opened, Options, clipboard,
     device_recovery::{self, DeviceLosses},
     fonts,
     frame::{self, Frame},
     hosts,
     keys::{HeldKeys, KeyChange},
+    mapped::MapCheck,
     report::Report,
     settings::{Overrides, RestoredSizes, SettingsFile, WindowFile, WindowPlace, WindowState},
     shell::Shell,
     surface::{Presented, Surface},
-    system_theme, theme, window_identity,
+    system_theme, theme, window_opening,
 };
 use crate::{
     gpu::{ADAPTER_VARIABLE, AdapterChoice, Gpu, GpuError},
@@ -32,10 +33,10 @@ use std::{
 };
 use winit::{
     application::ApplicationHandler,
-    dpi::{LogicalSize, PhysicalPosition, PhysicalSize},
     event::{ElementState, StartCause, WindowEvent},
     event_loop::{ActiveEventLoop, ControlFlow, EventLoop, EventLoopProxy},
-    window::{Fullscreen, Window, WindowAttributes, WindowId},
+    keyboard::ModifiersState,
+    window::{Fullscreen, Window, WindowId},
 };
 
 /// Sent to the event loop from other threads.
@@ -62,10 +63,10 @@ pub fn run(options: Options) -> Result<(), GuiError> {
 
 /// The same as [`run`]. Once the window is open, calls `opened` with its first graphics device.
 pub fn run_with(options: Options, opened: impl FnOnce(&Gpu) + 'static) -> Result<(), GuiError> {
-    let event_loop = EventLoop::<AppEvent>::with_user_event().build().map_err(no_display)?;
+    let event_loop = EventLoop::<AppEvent>::with_user_event().build().map_err(window_opening::no_display)?;
     let opened: Option<Opened> = Some(Box::new(opened));
     let mut app = App { proxy: event_loop.create_proxy(), options, opened, running: None, failed: None };
-    event_loop.run_app(&mut app).map_err(no_display)?;
+    event_loop.run_app(&mut app).map_err(window_opening::no_display)?;
     let has_lost_threads = app.running.as_mut().is_some_and(|running| running.session.end());
     // Dropping it would wait for the driver's threads.
     app.running = None;
@@ -76,18 +77,11 @@ pub fn run_with(options: Options, opened: impl FnOnce(&Gpu) + 'static) -> Result
     }
 }
 
-/// Returns the window system's error without the source location that it starts with.
-fn no_display(error: impl std::fmt::Display) -> GuiError {
-    let text = error.to_string();
-    let reason = match text.rsplit_once(".rs:") {
-        Some((_, rest)) => rest.trim_start_matches(|c: char| c.is_ascii_digit() || c == ':').trim(),
-        None => &text,
-    };
-    GuiError::NoDisplay(reason.trim_end_matches('.').to_owned())
-}
-
 /// The time that the first frame of a new program may delay painting the window.
 const FIRST_FRAME: Duration = Duration::from_millis(250);
+
+/// The number of attempts in a row to present a frame that follow each other at once.
+const QUICK_ATTEMPTS: u32 = 10;
 
 struct App {
     proxy: EventLoopProxy<AppEvent>,
@@ -110,11 +104,15 @@ struct Running {
     session: Session,
     shell: Shell,
     held: HeldKeys,
+    modifiers: ModifiersState,
     report: Report,
     /// The time of the next painting if nothing happens before.
     paint_at: Option<Instant>,
     painted_at: Instant,
     hidden: bool,
+    map_check: MapCheck,
+    /// The number of frames in a row that could not be presented.
+    failed_frames: u32,
     title: String,
     /// The system's theme preference, if the window system does not report it.
     system_theme: Receiver<egui::Theme>,
@@ -128,7 +126,11 @@ struct Running {
 
 impl ApplicationHandler<AppEvent> for App {
     fn resumed(&mut self, event_loop: &ActiveEventLoop) {
-        if self.running.is_some() {
+        // Systems that suspend a program take its surface back.
+        if let Some(running) = &mut self.running {
+            running.surface.recreate(&running.window);
+            running.hide(false);
+            running.paint_soon();
             return;
         }
         match Running::new(event_loop, &self.proxy, &self.options) {
@@ -142,6 +144,12 @@ impl ApplicationHandler<AppEvent> for App {
                 self.failed = Some(e);
                 event_loop.exit();
             }
+        }
+    }
+
+    fn suspended(&mut self, _: &ActiveEventLoop) {
+        if let Some(running) = &mut self.running {
+            running.hide(true);
         }
     }
 
@@ -231,8 +239,8 @@ impl Running {
         let state_dir = dirs::state_dir().or_else(dirs::data_local_dir).map(|dir| dir.join("eddy"));
         let mut window_file = WindowFile::new(state_dir.clone());
         let (window_state, mut errors) = window_file.read();
-        let attributes = attributes(event_loop, options, &window_state.place);
-        let window = Arc::new(event_loop.create_window(attributes).map_err(no_display)?);
+        let attributes = window_opening::attributes(event_loop, options, &window_state.place);
+        let window = Arc::new(event_loop.create_window(attributes).map_err(window_opening::no_display)?);
         let mut settings = SettingsFile::new();
         errors.extend(settings.refresh());
         let surface = surface(event_loop, &window, options.adapter.as_ref(), &settings, &mut errors)?;
@@ -313,10 +321,13 @@ impl Running {
             session,
             shell,
             held: HeldKeys::default(),
+            modifiers: ModifiersState::default(),
             report,
             paint_at: Some(now),
             painted_at: now,
             hidden: false,
+            map_check: MapCheck::default(),
+            failed_frames: 0,
             title: String::new(),
             system_theme,
             window_file,
@@ -357,7 +368,13 @@ impl Running {
                 }
                 self.session.apply(InputCommand::Focus(*focused));
             }
-            WindowEvent::KeyboardInput { event, is_synthetic, .. } => self.key(event, *is_synthetic),
+            WindowEvent::KeyboardInput { event, is_synthetic, .. } => {
+                self.key(event, *is_synthetic);
+                if !self.shell.is_typing(&self.ctx) {
+                    clipboard::paste_files(&mut self.input, event, self.modifiers);
+                }
+            }
+            WindowEvent::ModifiersChanged(modifiers) => self.modifiers = modifiers.state(),
             WindowEvent::Destroyed => return Ok(Next::Exit),
             _ => {}
         }
@@ -424,6 +441,10 @@ impl Running {
     /// Returns when to paint what is ready at a given time. The screen's refresh rate limits the loop; if it does not
     /// (software drivers), this does.
     fn paced(&self, at: Instant) -> Instant {
+        // Without vsync the picture is drawn as often as possible.
+        if !self.shell.waits_for_screen() {
+            return at;
+        }
         let interval = self.screen_interval();
         let is_early = self.painted_at + interval.mul_f64(0.75) > at;
         if is_early { at.max(self.painted_at + interval) } else { at }
@@ -442,8 +463,8 @@ impl Running {
         let Frame { output, tick, wants_next } =
             frame::run(&self.ctx, &mut self.shell, &mut self.session, renderer, raw, now);
         self.input.handle_platform_output(&self.window, output.platform_output.clone());
-        if self.shell.take_clipboard_request() {
-            let text = self.input.clipboard_text().unwrap_or_default();
+        if let Some(wanted) = self.shell.take_clipboard_request() {
+            let text = clipboard::text(&mut self.input, wanted);
             self.input.egui_input_mut().events.push(egui::Event::Paste(text));
             self.paint_soon();
         }
@@ -462,8 +483,11 @@ impl Running {
         }
         // Repaints that egui requests by itself can wait.
         let mut next = now.checked_add(delay).map(|at| at.max(self.after_first_frame(now)));
-        if wants_next || presented == Presented::Again {
+        if wants_next {
             next = Some(now);
+        }
+        if let Some(at) = self.after_failure(presented, now) {
+            next = Some(next.map_or(at, |next| next.min(at)));
         }
         if let Some(at) = tick.wake_at {
             let at = at.max(self.paced(now));
@@ -474,7 +498,21 @@ impl Running {
             (a, b) => a.or(b),
         };
         self.painted_at = now;
+        if self.map_check.is_unmapped(&self.window, now) {
+            self.hide(true);
+        }
         Ok(Next::Go)
+    }
+
+    /// Returns when to paint again after a frame that could not be presented. The first attempts follow at once, as the
+    /// window is being resized; a surface that is not there yet, as after a suspension, is awaited without haste.
+    fn after_failure(&mut self, presented: Presented, now: Instant) -> Option<Instant> {
+        if presented != Presented::Again {
+            self.failed_frames = 0;
+            return None;
+        }
+        self.failed_frames += 1;
+        Some(if self.failed_frames > QUICK_ATTEMPTS { now + self.screen_interval() } else { now })
     }
 
     /// Recovers from the loss of the window's device.
@@ -547,47 +585,10 @@ impl Running {
             self.window.set_title(&title);
             self.title = title;
         }
+        self.surface.set_vsync(self.shell.waits_for_screen());
         let is_full = self.window.fullscreen().is_some();
         if is_full != self.shell.is_fullscreen() {
             self.window.set_fullscreen(self.shell.is_fullscreen().then_some(Fullscreen::Borderless(None)));
         }
-    }
-}
-
-/// Returns the place and size of the new window: from the command line, else as saved, else as suits the screen.
-fn attributes(event_loop: &ActiveEventLoop, options: &Options, place: &WindowPlace) -> WindowAttributes {
-    let attributes = window_identity::identified(Window::default_attributes())
-        .with_title("Eddy")
-        .with_visible(false)
-        .with_min_inner_size(LogicalSize::new(360.0, 240.0));
-    if let Some((width, height)) = options.size {
-        return attributes.with_inner_size(PhysicalSize::new(width, height));
-    }
-    let (width, height) = place.size.unwrap_or((1280.0, 760.0));
-    let attributes = attributes.with_inner_size(LogicalSize::new(width, height)).with_maximized(place.is_maximized);
-    // The screen may have been disconnected.
-    let is_on_screen = |at: &(i32, i32)| {
-        event_loop.available_monitors().any(|monitor| {
-            let (from, size) = (monitor.position(), monitor.size().cast::<i32>());
-            (from.x - 50..from.x + size.width - 100).contains(&at.0)
-                && (from.y - 50..from.y + size.height - 100).contains(&at.1)
-        })
-    };
-    match place.corner.filter(is_on_screen) {
-        Some((x, y)) => attributes.with_position(PhysicalPosition::new(x, y)),
-        None => attributes,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_missing_display_is_reported_plainly() {
-        let error = no_display("os error at /somewhere/linux/mod.rs:788: Failed to open connection to X server.");
-        let text = error.to_string();
-        assert!(text.starts_with("no display found: Failed to open connection to X server. "), "{text}");
-        assert!(text.contains("eddy render"));
     }
 }

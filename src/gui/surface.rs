@@ -6,7 +6,9 @@
 use super::{
     GuiError,
     back_buffer::{self, BackBuffer, Painting},
+    color_space,
     damage::Area,
+    surface_faults::Faults,
 };
 use crate::gpu::{AdapterChoice, Gpu, GpuOptions, loss};
 use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
@@ -48,10 +50,16 @@ fn options(adapter: AdapterChoice) -> GpuOptions {
     GpuOptions { adapter, treat_as_gpu, ..GpuOptions::default() }
 }
 
+/// Returns the mode in which frames wait for the screen, or that in which they do not.
+fn present_mode(vsync: bool) -> wgpu::PresentMode {
+    if vsync { wgpu::PresentMode::AutoVsync } else { wgpu::PresentMode::AutoNoVsync }
+}
+
 fn config(
     surface: &wgpu::Surface<'_>,
     adapter: &wgpu::Adapter,
     size: PhysicalSize<u32>,
+    vsync: bool,
 ) -> Result<wgpu::SurfaceConfiguration, GuiError> {
     let mut config = surface
         .get_default_config(adapter, size.width.max(1), size.height.max(1))
@@ -62,7 +70,11 @@ fn config(
         egui_wgpu::preferred_framebuffer_format(&capabilities.formats).map_err(|e| GuiError::Surface(e.to_string()))?;
     // The painting is kept in a back buffer, and copied to the screen where that is supported.
     config.usage |= capabilities.usages & wgpu::TextureUsages::COPY_DST;
-    config.present_mode = wgpu::PresentMode::AutoVsync;
+    // The values are sRGB's, and a screen with more colours must convert them. A surface without a list of colour spaces
+    // chooses by itself.
+    let tagged = capabilities.color_spaces(config.format).contains(wgpu::SurfaceColorSpaces::SRGB);
+    config.color_space = if tagged { wgpu::SurfaceColorSpace::Srgb } else { wgpu::SurfaceColorSpace::Auto };
+    config.present_mode = present_mode(vsync);
     config.desired_maximum_frame_latency = 1;
     Ok(config)
 }
@@ -93,6 +105,8 @@ pub(super) struct Surface {
     back_buffer: BackBuffer,
     gpu: Gpu,
     needs_configure: bool,
+    vsync: bool,
+    faults: Faults,
     /// The number of times in a row that the surface did not take its size.
     refusals: u32,
 }
@@ -110,8 +124,9 @@ impl Surface {
         let options = options(adapter);
         let (instance, surface, adapter) = open(window, &display, &options.adapter)?;
         let gpu = Gpu::from_adapter(&adapter, &options)?;
-        let config = config(&surface, &adapter, window.inner_size())?;
+        let config = config(&surface, &adapter, window.inner_size(), true)?;
         surface.configure(&gpu.device, &config);
+        color_space::tag_as_srgb(&surface);
         let renderer = renderer(&gpu, &config);
         Ok(Surface {
             display,
@@ -123,6 +138,8 @@ impl Surface {
             back_buffer: BackBuffer::default(),
             gpu,
             needs_configure: false,
+            vsync: true,
+            faults: Faults::of_environment(),
             refusals: 0,
         })
     }
@@ -132,7 +149,7 @@ impl Surface {
     pub(super) fn reopen_device(&mut self, window: &Arc<Window>, ctx: &egui::Context) -> Result<(), GuiError> {
         let (instance, surface, adapter) = open(window, &self.display, &self.options.adapter)?;
         let gpu = loss::reopen(loss::RESET_TIMEOUT, || Gpu::from_adapter(&adapter, &self.options))?;
-        self.config = config(&surface, &adapter, window.inner_size())?;
+        self.config = config(&surface, &adapter, window.inner_size(), self.vsync)?;
         // A window has one swapchain: the old surface must be dropped before a new one is created. That panics if the
         // device was lost while a frame was presented, which then still exists (see `present`).
         let old = std::mem::replace(&mut self.surface, surface);
@@ -140,6 +157,7 @@ impl Surface {
             log::warn!("the surface of the lost device could not be released");
         }
         self.surface.configure(&gpu.device, &self.config);
+        color_space::tag_as_srgb(&self.surface);
         self.renderer = renderer(&gpu, &self.config);
         self.back_buffer = BackBuffer::default();
         let fonts = egui::epaint::ImageDelta::full(
@@ -179,6 +197,24 @@ impl Surface {
         }
     }
 
+    /// Sets whether frames wait for the screen, from the next one on.
+    pub(super) fn set_vsync(&mut self, vsync: bool) {
+        if std::mem::replace(&mut self.vsync, vsync) != vsync {
+            self.config.present_mode = present_mode(vsync);
+            self.needs_configure = true;
+        }
+    }
+
+    /// Replaces the surface by a new one of the window, as after a suspension in which the system has taken it back. What
+    /// has been painted is kept.
+    pub(super) fn recreate(&mut self, window: &Arc<Window>) {
+        match self.instance.create_surface(window.clone()) {
+            Ok(surface) => self.surface = surface,
+            Err(e) => log::error!("the window's surface was lost and could not be recreated: {e}"),
+        }
+        self.needs_configure = true;
+    }
+
     /// Paints and shows a frame of egui.
     pub(super) fn paint(&mut self, window: &Arc<Window>, output: egui::FullOutput, ctx: &egui::Context) -> Presented {
         match catch_unwind(AssertUnwindSafe(|| self.paint_on_device(window, output, ctx))) {
@@ -214,6 +250,7 @@ impl Surface {
         let scope = self.gpu.device.push_error_scope(wgpu::ErrorFilter::Validation);
         self.surface.configure(&self.gpu.device, &self.config);
         let refused = pollster::block_on(scope.pop());
+        color_space::tag_as_srgb(&self.surface);
         if let Some(error) = &refused {
             self.refusals += 1;
             // Once, and not at each of the following frames.
@@ -239,8 +276,11 @@ impl Surface {
             }
             self.needs_configure = false;
         }
-        let (device, queue) = (&self.gpu.device, &self.gpu.queue);
-        let frame = match self.surface.get_current_texture() {
+        let current = match self.faults.next() {
+            Some(fault) => fault,
+            None => self.surface.get_current_texture(),
+        };
+        let frame = match current {
             wgpu::CurrentSurfaceTexture::Success(frame) => frame,
             wgpu::CurrentSurfaceTexture::Suboptimal(frame) => {
                 self.needs_configure = true;
@@ -253,14 +293,11 @@ impl Surface {
                 return Presented::Again;
             }
             wgpu::CurrentSurfaceTexture::Lost => {
-                match self.instance.create_surface(window.clone()) {
-                    Ok(surface) => self.surface = surface,
-                    Err(e) => log::error!("the window's surface was lost and could not be recreated: {e}"),
-                }
-                self.needs_configure = true;
+                self.recreate(window);
                 return Presented::Again;
             }
         };
+        let (device, queue) = (&self.gpu.device, &self.gpu.queue);
         let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("window") });
         // Use the actual size of the frame: the window's may have changed since.
         let size_in_pixels = [frame.texture.width(), frame.texture.height()];

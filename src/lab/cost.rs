@@ -173,6 +173,17 @@ pub fn estimate(rig: &Rig, setup: &Setup, turn_millis: f64) -> Result<f64, LabEr
     TimedBatch::open(rig, setup, turn_millis, clock)?.take(clock)
 }
 
+/// Returns the bytes per second that a pass of this size moves which only copies rgba32f texels: the roofline. It is the
+/// median of three turns. A frame has `passes` of these passes.
+pub fn copied_bytes_per_second(rig: &Rig, size: (u32, u32), passes: u32, turn_millis: f64) -> Result<f64, LabError> {
+    let clock = Clock::of(rig);
+    let setup = Setup::new("floor", size).wants(&["copy"]).steps("copy", passes);
+    let mut turns = TimedBatch::open(rig, &setup, turn_millis, clock)?;
+    let millis: Result<Vec<f64>, LabError> = (0..3).map(|_| turns.take(clock)).collect();
+    let texels = f64::from(size.0) * f64::from(size.1) * f64::from(passes);
+    Ok(texels * COPY_BYTES / (Times::of(millis?).median / 1e3))
+}
+
 struct TimedBatch {
     running: Running,
     batch: u32,

@@ -18,6 +18,7 @@ mod page_style;
 pub mod picture;
 pub mod precision;
 mod present;
+pub mod preset_pictures;
 pub mod reference;
 pub mod report;
 mod results;

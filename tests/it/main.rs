@@ -48,6 +48,7 @@ mod glsl_mutations;
 mod glsl_order;
 mod glsl_variables;
 mod golden;
+mod gpu_reports;
 mod hostile_projects;
 mod hostile_results;
 mod includes;

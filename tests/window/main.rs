@@ -35,6 +35,7 @@ mod window_slow;
 #[cfg(all(feature = "audio", target_os = "linux"))]
 mod window_sound;
 mod window_state;
+mod window_surface;
 // Access to the portal needs a library that only the window uses.
 #[cfg(all(feature = "gui", not(any(windows, target_os = "macos"))))]
 mod window_theme;

@@ -63,6 +63,16 @@ pub(crate) struct DoctorArgs {
     /// Print one JSON object instead of text
     #[arg(long)]
     pub json: bool,
+    /// Draw all presets, measure the graphics adapter, and write this JSON file for a bug report: about a minute. It
+    /// contains no names of users, computers or folders (docs/gpu-reports.md)
+    #[arg(long, value_name = "FILE", conflicts_with = "json")]
+    pub report: Option<PathBuf>,
+    /// Draw only this preset for the report; may be repeated
+    #[arg(long, value_name = "PRESET", requires = "report")]
+    pub preset: Vec<String>,
+    /// Overwrite an existing report
+    #[arg(long, requires = "report")]
+    pub force: bool,
     /// Development only: panic, to try the report
     #[arg(long, hide = true)]
     pub panic: bool,

@@ -2,6 +2,7 @@
 //! and the home folder is shown as `~`.
 
 mod folders;
+mod gpu_report;
 mod text;
 
 use super::{
@@ -173,6 +174,9 @@ impl Run for DoctorArgs {
 
 fn run(args: &DoctorArgs) -> io::Result<u8> {
     assert!(!args.panic, "`eddy doctor --panic` was called");
+    if let Some(file) = &args.report {
+        return gpu_report::run(args, file);
+    }
     let doctor = Doctor::examine();
     if args.json {
         terminal::print_json(&doctor)?;
@@ -200,13 +204,7 @@ impl Doctor {
             Err(GpuError::NoAnswer { .. }) => Vec::new(),
             _ => AdapterReport::all().unwrap_or_default(),
         };
-        let device = device.map_err(|error| error.to_string()).map(|device| Device {
-            name: device.adapter,
-            backend: device.backend,
-            features: device.features,
-            limits: device.limits.into_iter().collect(),
-            faults: device.faults.into_iter().map(|fault| (fault.name, fault.about)).collect(),
-        });
+        let device = device.map_err(|error| error.to_string()).map(Device::of);
         let tilde = |text: String| home_as_tilde(&text);
         Doctor {
             build: Build { system: system(), libraries: libraries(), ..Build::of_this() },
@@ -219,6 +217,18 @@ impl Doctor {
             folders: folders::all(),
             environment: VARIABLES.into_iter().filter_map(|name| Some((name, tilde(env::var(name).ok()?)))).collect(),
             reports: folders::reports(),
+        }
+    }
+}
+
+impl Device {
+    fn of(report: DeviceReport) -> Device {
+        Device {
+            name: report.adapter,
+            backend: report.backend,
+            features: report.features,
+            limits: report.limits.into_iter().collect(),
+            faults: report.faults.into_iter().map(|fault| (fault.name, fault.about)).collect(),
         }
     }
 }
@@ -250,6 +260,15 @@ fn system() -> Option<String> {
     let name = name.lines().find_map(|line| line.strip_prefix("PRETTY_NAME="))?.trim_matches('"').to_owned();
     let kernel = std::fs::read_to_string("/proc/sys/kernel/osrelease").unwrap_or_default();
     Some(if kernel.is_empty() { name } else { format!("{name}, kernel {}", kernel.trim()) })
+}
+
+/// Returns the name of the machine.
+fn hostname() -> Option<String> {
+    let name = std::fs::read_to_string("/proc/sys/kernel/hostname").or_else(|_| {
+        let output = Command::new("hostname").stdin(Stdio::null()).output()?;
+        Ok::<_, io::Error>(String::from_utf8_lossy(&output.stdout).into_owned())
+    });
+    Some(name.ok()?.trim().to_owned()).filter(|name| !name.is_empty())
 }
 
 /// Returns the versions of libraries that may be at fault, as in this build.

@@ -151,6 +151,14 @@ settings! {
         )
         .overridden_by(ADAPTER_OPTION)
         .noted(|session| Some(format!("In use: {}", session.gpu().describe())));
+    /// Frames wait for the screen.
+    Vsync(vsync: bool = true), "vsync" =>
+        row(
+            "Wait for the screen",
+            Kind::Switch,
+            "Show one frame per refresh of the screen (vsync). Without it a picture is drawn as often as possible: its frame \
+             rate shows what the shader could reach, at more power and with torn pictures",
+        );
     /// PNG images are saved with the project in them.
     ProjectInImages(project_in_images: bool = true), "project-in-images" =>
         row(

@@ -168,7 +168,7 @@ fn settings_are_read_and_errors_have_their_line() {
     assert_eq!(settings, Settings::default());
     let found: Vec<_> = errors.iter().map(|m| (m.line, m.text.as_str())).collect();
     let all = "theme, zoom, code-size, code-font, include-folder, word-wrap, compile-on-save, frame-timeout, adapter, \
-               project-in-images, volume, mute, audio-output, audio-input, osc, osc-port, osc-address, midi, gamepads, recorder";
+               vsync, project-in-images, volume, mute, audio-output, audio-input, osc, osc-port, osc-address, midi, gamepads, recorder";
     let nothing_near = format!("unknown setting \"editor\"; the settings are {all}");
     let wanted = [
         (2, "unknown setting \"them\"; did you mean \"theme\"?"),

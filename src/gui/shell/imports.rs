@@ -1,6 +1,6 @@
-//! Handles input from outside the window: dropped files, pasted text and the clipboard.
+//! Handles input from outside the window: dropped and pasted files, pasted text and the clipboard.
 
-use super::Shell;
+use super::{Shell, pasted_files};
 use crate::{
     gui::ui_output::UiOutput,
     session::{FileCommand, Session},
@@ -19,14 +19,31 @@ pub(super) struct ClipboardRequests {
     pastes_into_code: bool,
 }
 
+/// The contents of the clipboard that are requested.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Wanted {
+    Text,
+    /// Files that were copied in a file manager, as [`addresses`](super::addresses), or else text.
+    FilesOrText,
+}
+
 impl Shell {
-    /// Returns true once after a request for the clipboard's contents, which then arrive as a paste event.
-    pub(crate) fn take_clipboard_request(&mut self) -> bool {
+    /// Returns a request for the clipboard's contents once. They then arrive as a paste event.
+    pub(crate) fn take_clipboard_request(&mut self) -> Option<Wanted> {
         let wants = std::mem::take(&mut self.clipboard.is_wanted);
         self.clipboard.takes_paste |= wants;
         let pastes = std::mem::take(&mut self.clipboard.is_wanted_by_code);
         self.clipboard.pastes_into_code |= pastes;
-        wants || pastes
+        match (wants, pastes) {
+            (true, _) => Some(Wanted::FilesOrText),
+            (false, true) => Some(Wanted::Text),
+            (false, false) => None,
+        }
+    }
+
+    /// Returns whether a text field or the code has the keyboard: pasted text goes there.
+    pub(crate) fn is_typing(&self, ctx: &egui::Context) -> bool {
+        ctx.text_edit_focused() || self.code.has_keys(ctx) || self.overlays.palette.is_open()
     }
 
     /// Takes dropped files, and text that is pasted while no text field has the focus.
@@ -39,8 +56,7 @@ impl Shell {
             let channel = at.and_then(|at| self.channel_at(at));
             self.open_files(files.iter().map(|file| file.path().to_owned()).collect(), channel, out);
         }
-        let types = ui.ctx().text_edit_focused() || self.code.has_keys(ui.ctx()) || self.overlays.palette.is_open();
-        if types && !self.clipboard.takes_paste && !self.clipboard.pastes_into_code {
+        if self.is_typing(ui.ctx()) && !self.clipboard.takes_paste && !self.clipboard.pastes_into_code {
             return;
         }
         let mut pasted = None;
@@ -58,7 +74,10 @@ impl Shell {
                 return self.code.paste(text);
             }
             self.clipboard.takes_paste = false;
-            out.ask(FileCommand::Paste(text));
+            match pasted_files::files_of(&text) {
+                Some(files) => self.open_files(files, None, out),
+                None => out.ask(FileCommand::Paste(text)),
+            }
         }
     }
 

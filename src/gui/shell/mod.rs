@@ -6,6 +6,7 @@ mod imports;
 mod keys;
 mod modes;
 mod panels;
+mod pasted_files;
 mod report;
 
 use super::{
@@ -39,7 +40,9 @@ use config::Config;
 use egui::{CentralPanel, Frame, Ui};
 use egui_wgpu::Renderer;
 use imports::ClipboardRequests;
+pub(super) use imports::Wanted;
 use modes::{Modes, Overlays};
+pub(super) use pasted_files::addresses;
 use report::Reported;
 use std::{
     path::{Path, PathBuf},
@@ -134,6 +137,11 @@ impl Shell {
         self.project_ui.compare.forget_textures();
         self.lab.change_device(gpu.clone());
         self.thumbnails = Thumbnails::new(gpu, wake);
+    }
+
+    /// Returns whether frames wait for the screen.
+    pub(super) fn waits_for_screen(&self) -> bool {
+        self.config.settings().vsync
     }
 
     /// Returns the panel layout, which is saved for the next start.

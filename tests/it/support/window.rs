@@ -358,6 +358,10 @@ impl<'a> Window<'a> {
         Duration::from_millis(ticks * 10)
     }
 
+    pub(crate) fn process_id(&self) -> u32 {
+        self.process.id()
+    }
+
     /// Returns the resident memory in bytes; 0 once the process has ended.
     pub(crate) fn resident(&self) -> u64 {
         let statm = std::fs::read_to_string(format!("/proc/{}/statm", self.process.id())).unwrap_or_default();
