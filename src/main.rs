@@ -16,7 +16,7 @@ fn main() -> ExitCode {
         Next::Exit(code) => code,
         Next::Window(window) => match open(window) {
             Ok(()) => ExitCode::SUCCESS,
-            Err(why) => ExitCode::from(cli::trouble(cli::error_chain(&why))),
+            Err(why) => ExitCode::from(cli::window_trouble(&cli::error_chain(&why))),
         },
     }
 }

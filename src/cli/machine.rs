@@ -9,7 +9,7 @@ use super::{
 use crate::{
     diag::{Diagnostic, SourceMap},
     engine::{BuildError, EngineError},
-    gpu::{ADAPTER_VARIABLE, AdapterChoice, Gpu, GpuError, GpuOptions, loss},
+    gpu::{ADAPTER_VARIABLE, AdapterChoice, Gpu, GpuError, GpuOptions, Slices, loss},
     lab::Shard,
     playback::offline::{DrawnFrame, Offline, OfflineError},
     project::ProjectError,
@@ -17,6 +17,7 @@ use crate::{
 use std::{
     env,
     panic::{AssertUnwindSafe, catch_unwind},
+    sync::Arc,
     time::{Duration, Instant},
 };
 
@@ -111,7 +112,7 @@ impl Machine {
         let adapter = AdapterChoice::first_of([self.adapter.clone(), env::var(ADAPTER_VARIABLE).ok()]);
         let open = || {
             let options = GpuOptions { adapter: adapter.clone(), ..GpuOptions::default() };
-            loss::open_with_timeout(move || Gpu::new(&options))
+            loss::open_with_timeout(move || Gpu::new(&options)).map(|gpu| in_slices_before_reset(gpu, cfg!(windows)))
         };
         match loss::reopen(patience, open) {
             Ok(gpu) => {
@@ -174,6 +175,19 @@ impl Machine {
     }
 }
 
+/// The time of a slice of a frame on a GPU under Windows, which resets an adapter that has not finished a submission within
+/// 2 s. Waiting after each slice is not noticeable at this length.
+const SLICE: Duration = Duration::from_millis(250);
+
+/// Returns the device, with frames in slices if the system would reset it during a slow frame.
+fn in_slices_before_reset(gpu: Gpu, is_windows: bool) -> Gpu {
+    if !is_windows || gpu.rasteriser().shares_processor() {
+        return gpu;
+    }
+    let began = Instant::now();
+    gpu.in_slices(Slices { limit: SLICE, now: Arc::new(move || began.elapsed().as_secs_f64() * 1e3) })
+}
+
 /// Returns the initial state of a lab run: its part of the work, by `--shard`, and the device. On failure returns one
 /// line that describes the error.
 pub(super) fn shard_and_device(shard: &str) -> Result<(Shard, Gpu), String> {
@@ -194,6 +208,18 @@ pub(super) fn millis_since(began: Instant) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gpu::testing;
+
+    #[test]
+    fn slow_frames_on_a_gpu_are_divided_where_the_system_would_reset_it() {
+        let open = |treat_as_gpu| testing::gpu_with(&GpuOptions { treat_as_gpu, ..GpuOptions::default() });
+        let (Some(gpu), Some(processor)) = (open(true), testing::gpu()) else { return };
+        assert!(in_slices_before_reset(gpu.clone(), true).slices.is_some_and(|slices| slices.limit == SLICE));
+        assert!(in_slices_before_reset(gpu, false).slices.is_none());
+        if processor.rasteriser().shares_processor() {
+            assert!(in_slices_before_reset(processor, true).slices.is_none());
+        }
+    }
 
     #[test]
     fn a_panic_is_a_bug_of_one_project_and_the_next_continues() {

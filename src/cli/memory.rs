@@ -2,13 +2,14 @@
 //! system would kill the process.
 
 use eddy_gpu::Rasteriser;
-use std::fs;
 
 /// Pictures with fewer pixels are not checked: they need less memory than other programs do.
 const LEAST_PIXELS: u64 = 1 << 24;
 
 /// Returns the available bytes of memory; `None` if the system does not report them.
+#[cfg(not(windows))]
 pub(super) fn available() -> Option<u64> {
+    use std::fs;
     let machine = fs::read_to_string("/proc/meminfo").ok().and_then(|text| of_meminfo(&text));
     let number = |name: &str| -> Option<u64> {
         fs::read_to_string(format!("/sys/fs/cgroup/memory.{name}")).ok()?.trim().parse().ok()
@@ -18,7 +19,19 @@ pub(super) fn available() -> Option<u64> {
     machine.into_iter().chain(container).min()
 }
 
+/// Returns the available bytes of memory; `None` if the system does not report them. Memory beyond the commit limit is not
+/// allocated, and memory beyond the physical one is written to a disk.
+#[cfg(windows)]
+pub(super) fn available() -> Option<u64> {
+    use windows_sys::Win32::System::SystemInformation::{GlobalMemoryStatusEx, MEMORYSTATUSEX};
+    let mut status = MEMORYSTATUSEX { dwLength: size_of::<MEMORYSTATUSEX>() as u32, ..MEMORYSTATUSEX::default() };
+    // SAFETY: the structure has the length that it says.
+    let is_known = unsafe { GlobalMemoryStatusEx(&mut status) } != 0;
+    is_known.then(|| status.ullAvailPhys.min(status.ullAvailPageFile))
+}
+
 /// Returns Linux's estimate of the memory that is available for new work (proc_meminfo(5), `MemAvailable`).
+#[cfg(any(not(windows), test))]
 fn of_meminfo(text: &str) -> Option<u64> {
     let line = text.lines().find_map(|line| line.strip_prefix("MemAvailable:"))?;
     line.trim().strip_suffix("kB")?.trim().parse::<u64>().ok().map(|kibibytes| kibibytes << 10)
@@ -60,6 +73,13 @@ mod tests {
         let text = "MemTotal:       16384 kB\nMemFree:         1024 kB\nMemAvailable:    8192 kB\n";
         assert_eq!(of_meminfo(text), Some(8192 << 10));
         assert_eq!(of_meminfo("MemTotal: 1 kB"), None);
+    }
+
+    #[test]
+    #[cfg(any(target_os = "linux", windows))]
+    fn the_machine_reports_its_memory() {
+        let available = available().expect("it is reported");
+        assert!((1 << 20..1 << 50).contains(&available), "{available}");
     }
 
     #[test]

@@ -36,6 +36,7 @@ mod report;
 mod sound;
 mod source_excerpt;
 mod stability;
+mod startup;
 mod sweep;
 mod targets;
 mod terminal;
@@ -53,6 +54,7 @@ use command::CommandError;
 use failure::TROUBLE;
 pub use failure::{error_chain, trouble};
 pub use panic_hook::install as install_log_and_reports;
+pub use startup::window_trouble;
 use std::{
     env,
     io::{self, Write},
@@ -72,8 +74,12 @@ pub enum Next {
 
 /// Parses and executes the command line. Usage errors, `--help` and `--version` end the process.
 pub fn main() -> Next {
+    startup::confine_libraries();
     let Cli { window, command } = parse().with_guests();
-    let Some(mut command) = command else { return Next::Window(window.with_project_of_file()) };
+    let Some(mut command) = command else {
+        startup::close_own_console();
+        return Next::Window(window.with_project_of_file());
+    };
     if command.opens_device() {
         quiet::ask_for_no_wayland();
     }

@@ -26,4 +26,4 @@ pub(super) fn ask_for_no_wayland() {
 }
 
 #[cfg(not(target_os = "linux"))]
-pub fn ask_for_no_wayland() {}
+pub(super) fn ask_for_no_wayland() {}

@@ -1,6 +1,6 @@
 //! The device with its known properties, and the priority of threads where the CPU draws.
 
-use super::{AdapterChoice, loss};
+use super::{AdapterChoice, direct3d::HlslCompiler, loss};
 use std::{
     sync::{
         Arc, Mutex,
@@ -136,6 +136,8 @@ pub struct Gpu {
     /// The number of iterations after which a shader leaves loops that may be endless: they would block the device for
     /// all programs until a reset or longer. `None` on a CPU, which can be shared.
     pub max_loop_iterations: Option<u32>,
+    /// The compiler of shaders on Direct3D 12; `None` on other backends.
+    pub hlsl_compiler: Option<HlslCompiler>,
     /// Timestamps can be written between passes.
     pub has_timestamps: bool,
     /// A window is painted on this device too: engines submit their frames in slices, so that painting runs in between.
@@ -234,6 +236,10 @@ impl Gpu {
         }
         // A report about a panic names the newest device.
         log::info!(target: "eddy::device", "{} ({}, {})", info.name, info.backend, info.driver_info);
+        let hlsl_compiler = HlslCompiler::of(info.backend);
+        if let Some(warning) = hlsl_compiler.as_ref().and_then(HlslCompiler::warning) {
+            log::warn!("{warning}");
+        }
         let state = Arc::new(State::default());
         let lost = state.clone();
         device.set_device_lost_callback(move |reason, message| {
@@ -261,6 +267,7 @@ impl Gpu {
             keeps_loops_open: info.name.starts_with("llvmpipe"),
             nan_angle: info.backend == wgpu::Backend::Dx12,
             max_loop_iterations: (info.device_type != wgpu::DeviceType::Cpu).then_some(MAX_LOOP_ITERATIONS),
+            hlsl_compiler,
             slices: None,
             treat_as_gpu: options.treat_as_gpu,
             runtime_checks: options.runtime_checks,

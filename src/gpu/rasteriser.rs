@@ -115,14 +115,30 @@ impl Gpu {
 
 /// Lowers the priority of the calling thread. On Linux the priority is per thread, and threads that a driver starts for
 /// it inherit it.
+#[cfg(target_os = "linux")]
 fn lower_thread_priority(steps: i32) {
-    #[cfg(target_os = "linux")]
     if let Err(error) = rustix::process::nice(steps) {
         log::debug!("a thread keeps its priority: {error}");
     }
-    #[cfg(not(target_os = "linux"))]
-    let _ = steps;
 }
+
+/// Lowers the priority of the calling thread. Windows has two steps below the normal priority, and threads that a
+/// driver starts do not inherit it.
+#[cfg(windows)]
+fn lower_thread_priority(steps: i32) {
+    use windows_sys::Win32::System::Threading::{
+        GetCurrentThread, SetThreadPriority, THREAD_PRIORITY_BELOW_NORMAL, THREAD_PRIORITY_LOWEST,
+    };
+    let priority = if steps < NICE_IN_BACKGROUND { THREAD_PRIORITY_BELOW_NORMAL } else { THREAD_PRIORITY_LOWEST };
+    // SAFETY: the pseudo handle of the calling thread is always valid.
+    if unsafe { SetThreadPriority(GetCurrentThread(), priority) } == 0 {
+        log::debug!("a thread keeps its priority: {}", std::io::Error::last_os_error());
+    }
+}
+
+/// On macOS a priority belongs to the process.
+#[cfg(not(any(target_os = "linux", windows)))]
+fn lower_thread_priority(_: i32) {}
 
 /// Lowers the priority of the calling thread, which competes with the window even if a GPU draws.
 pub fn lower_background_priority() {

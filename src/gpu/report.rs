@@ -1,6 +1,6 @@
 //! A description of the machine's devices, for bug reports.
 
-use super::{Gpu, GpuError, GpuOptions, loss};
+use super::{Gpu, GpuError, GpuOptions, HlslCompiler, loss};
 
 /// The properties of an adapter, as reported by its driver.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -24,6 +24,8 @@ pub struct AdapterReport {
 pub struct DeviceReport {
     pub adapter: String,
     pub backend: String,
+    /// The compiler of shaders on Direct3D 12, with the path of its library; `None` on other backends.
+    pub hlsl_compiler: Option<String>,
     /// The features that Eddy has enabled.
     pub features: Vec<String>,
     pub limits: Vec<(&'static str, u64)>,
@@ -102,6 +104,7 @@ impl DeviceReport {
         Self {
             adapter: gpu.info.name.clone(),
             backend: gpu.info.backend.to_string(),
+            hlsl_compiler: gpu.hlsl_compiler.as_ref().map(HlslCompiler::describe),
             features: names(gpu.device.features()),
             limits: limits.into(),
             faults: faults(gpu),
@@ -122,6 +125,11 @@ fn faults(gpu: &Gpu) -> Vec<Fault> {
         ),
         (gpu.recompiles_for_uniforms, "recompiles_for_uniforms", "uniforms that decide branches are hidden"),
         (gpu.keeps_denormals, "keeps_denormals", "passes with 16-bit floats are compiled as if they could discard"),
+        (
+            gpu.hlsl_compiler == Some(HlslCompiler::Fxc),
+            "slow_hlsl_compiler",
+            "FXC takes minutes for some shaders; put dxcompiler.dll beside eddy.exe",
+        ),
         (gpu.nan_angle, "nan_angle", "atan(0, 0) is asked of other numbers"),
         (gpu.wants_array_loops, "wants_array_loops", "long arrays are filled and copied by loops"),
         (gpu.keeps_loops_open, "keeps_loops_open", "loops begin with an exit that is never taken"),

@@ -18,7 +18,7 @@ use super::{
     system_theme, theme, window_opening,
 };
 use crate::{
-    gpu::{ADAPTER_VARIABLE, AdapterChoice, Gpu, GpuError},
+    gpu::{ADAPTER_VARIABLE, AdapterChoice, Gpu, GpuError, HlslCompiler},
     playback::trial::TrialSettings,
     session::{
         self, CanvasCommand, EditCommand, FileCommand, HaltCommand, InputCommand, Level, NoticeCommand, Request,
@@ -291,6 +291,9 @@ impl Running {
         shell.apply_settings(&ctx).into_iter().for_each(|command| session.apply(command));
         for text in errors {
             session.apply(NoticeCommand::Notify { level: Level::Error, text, path: None });
+        }
+        if let Some(text) = surface.gpu().hlsl_compiler.as_ref().and_then(HlslCompiler::warning) {
+            session.apply(NoticeCommand::Notify { level: Level::Warning, text: text.into(), path: None });
         }
         let report = Report::new(options.json);
         if let Some(project) = &options.project {

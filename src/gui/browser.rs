@@ -11,17 +11,13 @@ use crate::{
 use std::{
     io::{self, Write},
     path::{Path, PathBuf},
-    process::{self, Stdio},
+    process,
     sync::Arc,
-    time::{Duration, Instant},
 };
 
 /// The page with the bookmarklet that saves a shader from its Shadertoy page.
 const BOOKMARKLET: &str = include_str!("../../docs/bookmarklet.html");
 const BOOKMARKLET_NAME: &str = "shadertoy-bookmarklet.html";
-/// A program that still runs after this time counts as having opened the page: some are the browser itself.
-const START_TIMEOUT: Duration = Duration::from_secs(5);
-
 /// Pages that are being opened.
 #[derive(Default)]
 pub(super) struct Browser {
@@ -98,6 +94,12 @@ fn portal(page: &Path) -> bool {
 /// Runs a program that opens a page. Returns whether it succeeded.
 #[cfg(not(windows))]
 fn runs(program: &Path, page: &Path) -> bool {
+    use std::{
+        process::Stdio,
+        time::{Duration, Instant},
+    };
+    /// A program that still runs after this time counts as having opened the page: some are the browser itself.
+    const START_TIMEOUT: Duration = Duration::from_secs(5);
     let mut command = process::Command::new(program);
     command.arg(page).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
     let mut child = match command.spawn() {

@@ -23,6 +23,7 @@ pub mod script;
 pub mod shard;
 pub mod tiles;
 pub mod trial;
+mod usage;
 
 /// Returns the median of values, the upper of the middle two; `None` if there are none.
 pub fn median(mut values: Vec<f64>) -> Option<f64> {

@@ -21,7 +21,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-use crate::{offline::Offline, script::ScriptedInputs};
+use crate::{offline::Offline, script::ScriptedInputs, usage};
 
 /// The command of this program that [`serve`] implements.
 pub const COMMAND: &str = "try-compile";
@@ -78,13 +78,9 @@ impl TrialSettings {
             media,
             limit_secs: self.limit.as_secs_f64(),
         };
-        let started = Command::new(&self.program)
-            .arg(COMMAND)
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::null())
-            .spawn();
-        let Ok(mut child) = started else { return Ok(()) };
+        let mut command = Command::new(&self.program);
+        command.arg(COMMAND).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::null());
+        let Ok(mut child) = usage::open_no_console(&mut command).spawn() else { return Ok(()) };
         let text = serde_json::to_string(&request).unwrap_or_default();
         let sent = child.stdin.take().map(|mut input| input.write_all(text.as_bytes()));
         if !matches!(sent, Some(Ok(()))) {
@@ -97,7 +93,7 @@ impl TrialSettings {
         match word.trim() {
             OVER_TIME => Err(TrialError::Time(self.limit)),
             OVER_MEMORY => Err(TrialError::Memory),
-            _ if crashed(status) => Err(TrialError::Crash),
+            _ if usage::crashed(status) => Err(TrialError::Crash),
             _ => Ok(()),
         }
     }
@@ -123,17 +119,6 @@ impl TrialSettings {
 fn end(child: &mut Child) {
     let _ = child.kill();
     let _ = child.wait();
-}
-
-#[cfg(unix)]
-fn crashed(status: ExitStatus) -> bool {
-    use std::os::unix::process::ExitStatusExt;
-    status.signal().is_some()
-}
-
-#[cfg(not(unix))]
-fn crashed(_: ExitStatus) -> bool {
-    false
 }
 
 /// The project and the settings that the child receives.
@@ -191,28 +176,23 @@ struct Guard {
 
 impl Guard {
     fn start_watching(self) -> std::io::Result<()> {
-        #[cfg(unix)]
-        {
-            use rustix::process::{Resource, Rlimit, setrlimit};
-            // It ends by a signal, and must not leave a core file.
-            let _ = setrlimit(Resource::Core, Rlimit { current: Some(0), maximum: Some(0) });
-        }
+        usage::crash_silently();
         thread::Builder::new().name("guard".into()).spawn(move || self.watch())?;
         Ok(())
     }
 
     fn watch(self) {
-        let (mut step, mut began) = (0, processor_time());
+        let (mut step, mut began) = (0, usage::processor_time());
         loop {
             thread::sleep(LOOK);
             let now = self.step.load(Ordering::Relaxed);
             if now != step {
-                (step, began) = (now, processor_time());
+                (step, began) = (now, usage::processor_time());
             }
-            if processor_time().saturating_sub(began) > self.limit {
+            if usage::processor_time().saturating_sub(began) > self.limit {
                 leave(OVER_TIME);
             }
-            if memory() > limits::DRIVER_BYTES {
+            if usage::memory() > limits::DRIVER_BYTES {
                 leave(OVER_MEMORY);
             }
         }
@@ -223,36 +203,7 @@ impl Guard {
 fn leave(word: &str) -> ! {
     let mut out = std::io::stdout();
     let _ = writeln!(out, "{word}").and_then(|()| out.flush());
-    std::process::abort()
-}
-
-/// Returns the CPU time that this process has taken.
-#[cfg(unix)]
-fn processor_time() -> Duration {
-    let time = rustix::time::clock_gettime(rustix::time::ClockId::ProcessCPUTime);
-    Duration::new(time.tv_sec.try_into().unwrap_or(0), time.tv_nsec.try_into().unwrap_or(0))
-}
-
-#[cfg(not(unix))]
-fn processor_time() -> Duration {
-    Duration::ZERO
-}
-
-/// Returns this process's memory use in bytes; 0 if that is unknown.
-fn memory() -> u64 {
-    let pages = std::fs::read_to_string("/proc/self/statm").ok();
-    let resident = pages.as_deref().and_then(|text| text.split(' ').nth(1)?.parse::<u64>().ok());
-    resident.unwrap_or(0) * page_size()
-}
-
-#[cfg(unix)]
-fn page_size() -> u64 {
-    rustix::param::page_size() as u64
-}
-
-#[cfg(not(unix))]
-fn page_size() -> u64 {
-    0
+    usage::end_at_once()
 }
 
 #[cfg(all(test, unix))]

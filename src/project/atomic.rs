@@ -238,7 +238,8 @@ fn is_temporary(name: &str) -> bool {
     random.is_some_and(|r| r.len() == 6 && r.bytes().all(|b| b.is_ascii_alphanumeric()))
 }
 
-/// Syncs the rename itself. Not every file system can; the content is safe either way.
+/// Syncs the rename itself. Not every file system can; the content is safe either way. Windows has no such call: NTFS
+/// writes renames to its journal.
 fn sync_folder(path: &Path) {
     #[cfg(unix)]
     if let Err(e) = fs::File::open(folder_of(path)).and_then(|folder| folder.sync_all()) {

@@ -166,7 +166,8 @@ fn keep(folder: &Path, name: &str, kept: &Path) -> Result<(), ProjectError> {
     copy().map_err(ProjectError::io("keep what would be replaced in", &to))
 }
 
-/// Creates a folder that only its owner may read, for private data.
+/// Creates a folder that only its owner may read, for private data. On Windows it inherits the access of the folder that
+/// it is in, and those of a user are private.
 pub fn make_private(folder: &Path) -> io::Result<()> {
     let mut builder = fs::DirBuilder::new();
     builder.recursive(true);

@@ -8,6 +8,7 @@ use super::{
     },
     drawing::Change,
     open_project::OpenProject,
+    options::frame_limit,
     trace::TracedPixel,
     view::{About, Level},
 };
@@ -44,7 +45,9 @@ impl Session {
             Command::Halt(HaltCommand::DrawLastGood) => self.draw_last_good(),
             Command::Halt(HaltCommand::Hold) => open.hold(),
             Command::Halt(HaltCommand::GoOn) => open.continue_drawing(),
-            Command::Halt(HaltCommand::SetFrameLimit(limit)) => open.halt.set_limit(limit),
+            Command::Halt(HaltCommand::SetFrameLimit(limit)) => {
+                open.halt.set_limit(frame_limit(limit, services.drawing.gpu().rasteriser(), cfg!(windows)));
+            }
             Command::Canvas(CanvasCommand::Cover(is_covered)) => {
                 if open.playback.cover(is_covered) {
                     services.last_pictures.want();

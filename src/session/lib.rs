@@ -83,7 +83,7 @@ pub use films::{
     CheckedForm, FilmDone, FilmFacts, FilmField, FilmForm, FilmOrder, FilmPlace, FilmPreset, FilmProgress, FilmStage,
     FilmView, LiveView,
 };
-pub use options::{SessionError, SessionOptions};
+pub use options::{DEFAULT_FRAME_LIMIT, SessionError, SessionOptions, frame_limit};
 pub use panic_report::{PanicReport, folder as report_folder, home_as_tilde};
 pub use pass_history::PassStep;
 pub use playback::{Reach, ReplayView, TimeRange};

@@ -4,9 +4,22 @@ use super::drawing;
 use eddy_audio::host::AudioHost;
 use eddy_control::{midi::host::MidiHost, pads::PadHost};
 use eddy_engine::EngineError;
+use eddy_gpu::Rasteriser;
 use eddy_playback::trial::TrialSettings;
 use eddy_video::CameraSource;
 use std::{path::PathBuf, sync::Arc, time::Duration};
+
+/// The default of [`SessionOptions::frame_limit`].
+pub const DEFAULT_FRAME_LIMIT: Duration = Duration::from_secs(2);
+/// The limit that takes the place of the default where the system resets a GPU that has not answered for 2 s, as Windows
+/// does (`TdrDelay`): the frame is halted before the device is lost.
+const LIMIT_BEFORE_RESET: Duration = Duration::from_secs(1);
+
+/// Returns the limit that is in effect for `limit`. One that differs from the default was chosen, and stays.
+pub fn frame_limit(limit: Duration, rasteriser: Rasteriser, is_windows: bool) -> Duration {
+    let resets = is_windows && !rasteriser.shares_processor();
+    if resets && limit == DEFAULT_FRAME_LIMIT { LIMIT_BEFORE_RESET } else { limit }
+}
 
 /// The setup of a session. The defaults are those of the window, except for recovery files.
 #[derive(Clone, Debug)]
@@ -31,7 +44,8 @@ pub struct SessionOptions {
     /// Draw on a thread and a device of their own, so that no tick waits for a frame. If false, each frame is drawn in
     /// the tick in which it is due.
     pub draws_on_thread: bool,
-    /// A frame drawn on the thread that takes longer pauses the picture.
+    /// A frame drawn on the thread that takes longer pauses the picture. The default is shorter for a GPU on Windows: see
+    /// [`frame_limit`].
     pub frame_limit: Duration,
     /// The settings for trial compiles of large programs in a separate process, if the driver compiles on the
     /// processor; `None` disables them.
@@ -61,7 +75,7 @@ impl Default for SessionOptions {
             camera: CameraSource::First,
             recovery: None,
             draws_on_thread: false,
-            frame_limit: Duration::from_secs(2),
+            frame_limit: DEFAULT_FRAME_LIMIT,
             trials: None,
             state_dir: None,
             cache_dir: None,
@@ -90,5 +104,22 @@ impl From<drawing::Error> for SessionError {
             drawing::Error::Engine(error) => Self::Engine(error),
             drawing::Error::Thread(error) => Self::DrawingThread(error),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn default_limit_is_below_the_reset_of_windows() {
+        let secs = Duration::from_secs;
+        assert_eq!(frame_limit(DEFAULT_FRAME_LIMIT, Rasteriser::GPU, true), secs(1));
+        assert_eq!(frame_limit(DEFAULT_FRAME_LIMIT, Rasteriser::software(), true), secs(2));
+        assert_eq!(frame_limit(DEFAULT_FRAME_LIMIT, Rasteriser::GPU, false), secs(2));
+        assert_eq!(
+            [secs(5), Duration::from_millis(500)].map(|limit| frame_limit(limit, Rasteriser::GPU, true)),
+            [secs(5), Duration::from_millis(500)]
+        );
     }
 }

@@ -10,6 +10,8 @@ mod camera;
 mod encoder;
 mod error;
 mod ffmpeg;
+#[cfg(windows)]
+mod job;
 mod numbered;
 mod probe;
 mod process;

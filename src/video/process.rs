@@ -1,6 +1,8 @@
 //! Child processes that end with Eddy, that time out, and whose output is always drained.
 
 use super::VideoError;
+#[cfg(windows)]
+use super::job::Job;
 use std::{
     io::{self, BufRead, BufReader, Read},
     path::PathBuf,
@@ -31,43 +33,67 @@ impl Default for Tools {
 pub struct Stop(Arc<ChildProcess>);
 
 #[derive(Debug, Default)]
-struct ChildProcess(Mutex<Option<Child>>);
+struct ChildProcess(Mutex<Option<Running>>);
 
 impl Drop for ChildProcess {
     fn drop(&mut self) {
-        if let Some(mut child) = self.0.get_mut().unwrap_or_else(PoisonError::into_inner).take() {
-            end(&mut child);
+        if let Some(mut running) = self.0.get_mut().unwrap_or_else(PoisonError::into_inner).take() {
+            running.end();
         }
     }
 }
 
-/// Kills a child, and does not wait for one that survives that.
-fn end(child: &mut Child) {
-    let _ = child.kill();
-    let give_up = Instant::now() + Duration::from_millis(500);
-    while matches!(child.try_wait(), Ok(None)) && Instant::now() < give_up {
-        thread::sleep(Duration::from_millis(1));
+/// A child process. On Windows it ends when this value is dropped, and with Eddy, however that ends. Elsewhere a child
+/// whose pipes are closed ends by its next read or write.
+#[derive(Debug)]
+struct Running {
+    child: Child,
+    #[cfg(windows)]
+    job: Option<Job>,
+}
+
+impl Running {
+    fn new(child: Child) -> Self {
+        Self {
+            #[cfg(windows)]
+            job: Job::of(&child).inspect_err(|e| log::warn!("a program may outlive Eddy: {e}")).ok(),
+            child,
+        }
+    }
+
+    /// Kills the child, and does not wait for one that survives that.
+    fn end(&mut self) {
+        #[cfg(windows)]
+        if let Some(job) = &self.job {
+            job.terminate();
+        }
+        let _ = self.child.kill();
+        let give_up = Instant::now() + Duration::from_millis(500);
+        while matches!(self.child.try_wait(), Ok(None)) && Instant::now() < give_up {
+            thread::sleep(Duration::from_millis(1));
+        }
     }
 }
 
 impl Stop {
     fn put(&self, child: Child) {
-        if let Some(mut before) = self.0.0.lock().unwrap_or_else(PoisonError::into_inner).replace(child) {
-            end(&mut before);
+        let running = Running::new(child);
+        if let Some(mut before) = self.0.0.lock().unwrap_or_else(PoisonError::into_inner).replace(running) {
+            before.end();
         }
     }
 
     /// Ends the process. Readers of its output reach the end of the stream.
     pub fn stop(&self) {
-        if let Some(child) = self.0.0.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
-            end(child);
+        if let Some(running) = self.0.0.lock().unwrap_or_else(PoisonError::into_inner).as_mut() {
+            running.end();
         }
     }
 
     /// Waits for the process to end, however long it takes. `None` if there was none.
     pub fn wait(&self) -> Option<io::Result<ExitStatus>> {
         loop {
-            let ended = self.0.0.lock().unwrap_or_else(PoisonError::into_inner).as_mut()?.try_wait();
+            let ended = self.0.0.lock().unwrap_or_else(PoisonError::into_inner).as_mut()?.child.try_wait();
             match ended {
                 Ok(None) => thread::sleep(Duration::from_millis(2)),
                 Ok(Some(status)) => return Some(Ok(status)),
@@ -91,8 +117,8 @@ pub(crate) fn spawn(command: &mut Command, stop: &Stop) -> Result<Pipes, VideoEr
     #[cfg(windows)]
     {
         use std::os::windows::process::CommandExt;
-        // Opens no console next to the window (CREATE_NO_WINDOW).
-        command.creation_flags(0x0800_0000);
+        // It opens no console next to the window.
+        command.creation_flags(windows_sys::Win32::System::Threading::CREATE_NO_WINDOW);
     }
     let mut child = command.spawn().map_err(|e| match e.kind() {
         io::ErrorKind::NotFound => VideoError::NoProgram { program: program.clone() },

@@ -55,7 +55,7 @@ pub struct Window {
     /// Open the project paused, without drawing anything
     #[arg(long)]
     pub paused: bool,
-    /// Pause when a frame takes longer than this [default: 2]
+    /// Pause when a frame takes longer than this [default: 2; 1 on a GPU under Windows]
     #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_hyphen_values = true)]
     pub frame_timeout: Option<Duration>,
     /// CPU time limit for compiling a large pass with a driver that compiles on the CPU [default: 8]

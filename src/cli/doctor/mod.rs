@@ -41,9 +41,10 @@ const ENCODERS: [(&str, &str); 11] = [
 ];
 
 /// Environment variables that affect Eddy. Their values contain no personal data.
-const VARIABLES: [&str; 14] = [
+const VARIABLES: [&str; 15] = [
     "WGPU_BACKEND",
     "WGPU_ADAPTER_NAME",
+    "WGPU_DX12_COMPILER",
     "WGPU_VALIDATION",
     "VK_ICD_FILENAMES",
     "VK_DRIVER_FILES",
@@ -109,6 +110,9 @@ struct Build {
 struct Device {
     name: String,
     backend: String,
+    /// The compiler of shaders on Direct3D 12.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    hlsl_compiler: Option<String>,
     features: Vec<String>,
     limits: BTreeMap<&'static str, u64>,
     /// The names of the driver's faults, with Eddy's workarounds.
@@ -226,6 +230,7 @@ impl Device {
         Device {
             name: report.adapter,
             backend: report.backend,
+            hlsl_compiler: report.hlsl_compiler,
             features: report.features,
             limits: report.limits.into_iter().collect(),
             faults: report.faults.into_iter().map(|fault| (fault.name, fault.about)).collect(),
@@ -254,7 +259,20 @@ impl Build {
     }
 }
 
+/// Returns the version of Windows, as far as the manifest knows it. That of Windows 11 is 10.0, with a build from 22000 on.
+#[cfg(windows)]
+fn system() -> Option<String> {
+    use windows_sys::Win32::System::SystemInformation::{GetVersionExW, OSVERSIONINFOW};
+    let size = size_of::<OSVERSIONINFOW>() as u32;
+    let mut version = OSVERSIONINFOW { dwOSVersionInfoSize: size, ..OSVERSIONINFOW::default() };
+    // SAFETY: the structure has the size that it says.
+    let is_known = unsafe { GetVersionExW(&mut version) } != 0;
+    let OSVERSIONINFOW { dwMajorVersion: major, dwMinorVersion: minor, dwBuildNumber: build, .. } = version;
+    is_known.then(|| format!("Windows {major}.{minor}, build {build}"))
+}
+
 /// Returns the name of the distribution, and the kernel's version.
+#[cfg(not(windows))]
 fn system() -> Option<String> {
     let name = std::fs::read_to_string("/etc/os-release").ok()?;
     let name = name.lines().find_map(|line| line.strip_prefix("PRETTY_NAME="))?.trim_matches('"').to_owned();
@@ -309,20 +327,26 @@ impl Display {
     }
 }
 
-/// Returns the system's font folders.
+/// Returns the system's font folders, and the user's.
 fn fonts() -> Vec<FontFolder> {
-    let system: &[&str] = match () {
-        () if cfg!(windows) => &["C:\\Windows\\Fonts"],
-        () if cfg!(target_os = "macos") => &["/System/Library/Fonts", "/Library/Fonts"],
-        () => &["/usr/share/fonts", "/usr/local/share/fonts"],
+    let folders = if cfg!(windows) {
+        let of_windows = env::var_os("SystemRoot").map(|folder| Path::new(&folder).join("Fonts"));
+        // Fonts that were installed for one user alone, since Windows 10.
+        let own = dirs::data_local_dir().map(|folder| folder.join("Microsoft\\Windows\\Fonts"));
+        of_windows.into_iter().chain(own).collect()
+    } else {
+        let system: &[&str] = match () {
+            () if cfg!(target_os = "macos") => &["/System/Library/Fonts", "/Library/Fonts"],
+            () => &["/usr/share/fonts", "/usr/local/share/fonts"],
+        };
+        let folders = system.iter().map(|folder| Path::new(folder).to_owned());
+        folders.chain(dirs::font_dir()).collect::<Vec<_>>()
     };
-    let own = dirs::font_dir();
-    let folders = system.iter().map(|folder| Path::new(folder).to_owned()).chain(own);
     let line = |folder: std::path::PathBuf| FontFolder {
         files: folder.is_dir().then(|| count_fonts(&folder, 0)),
         folder: home_as_tilde(&folder.display().to_string()),
     };
-    folders.map(line).collect()
+    folders.into_iter().map(line).collect()
 }
 
 /// The maximum depth of font folders, which stops at one that links to itself.

@@ -23,6 +23,9 @@ pub(super) fn of(doctor: &Doctor) -> String {
         Answer::Missing { missing } => line(&mut out, "none", missing),
         Answer::Is(device) => {
             line(&mut out, "name", &format!("{} ({})", device.name, device.backend));
+            if let Some(compiler) = &device.hlsl_compiler {
+                line(&mut out, "shader compiler", compiler);
+            }
             line(&mut out, "features", &device.features.join(", "));
             for (name, value) in &device.limits {
                 line(&mut out, name, &value.to_string());

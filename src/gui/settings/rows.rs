@@ -7,7 +7,10 @@ use super::{
 use crate::{
     control::{midi::MidiChoice, osc::OscState},
     project::INCLUDE_SETTING,
-    session::{CaptureCommand, Command, ControlCommand, EditCommand, FilmForm, HaltCommand, Session, SoundCommand},
+    session::{
+        CaptureCommand, Command, ControlCommand, DEFAULT_FRAME_LIMIT, EditCommand, FilmForm, HaltCommand, Session,
+        SoundCommand, frame_limit,
+    },
 };
 use std::{
     net::{IpAddr, Ipv4Addr, SocketAddr},
@@ -138,10 +141,15 @@ settings! {
         row("Compile on save only", Kind::Switch, "Compile edits when they are saved, not while you type")
             .sends(|settings| Command::Edit(EditCommand::SetCompileOnSave(settings.compile_on_save)));
     /// A frame that takes longer pauses the picture.
-    FrameTimeout(frame_timeout: Duration = Duration::from_secs(2)), "frame-timeout" =>
+    FrameTimeout(frame_timeout: Duration = DEFAULT_FRAME_LIMIT), "frame-timeout" =>
         row("Slow frame limit", Kind::Number(FRAME_TIMEOUT), "Pause the picture when a frame takes longer than this")
             .sends(|settings| Command::Halt(HaltCommand::SetFrameLimit(settings.frame_timeout)))
-            .overridden_by(FRAME_TIMEOUT_OPTION);
+            .overridden_by(FRAME_TIMEOUT_OPTION)
+            .noted(|session| {
+                let limit = frame_limit(DEFAULT_FRAME_LIMIT, session.gpu().rasteriser(), cfg!(windows));
+                let note = "The default is 1 s here: Windows resets a GPU that has not answered for 2 s";
+                (limit < DEFAULT_FRAME_LIMIT).then(|| note.to_owned())
+            });
     /// The graphics adapter; `None`: the fastest.
     Adapter(adapter: Option<String> = None), "adapter" =>
         row(

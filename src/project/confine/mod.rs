@@ -375,9 +375,35 @@ fn open_regular(real: &Path) -> io::Result<File> {
     Ok(File::from(rustix::fs::open(real, flags, Mode::empty())?))
 }
 
-#[cfg(not(unix))]
+/// Opens for reading, and refuses a link that has replaced a part of the path since it was resolved: the opened file has
+/// another path then. Not to follow links (`FILE_FLAG_OPEN_REPARSE_POINT`) would also open files of cloud folders as
+/// something else than their content.
+#[cfg(windows)]
 fn open_regular(real: &Path) -> io::Result<File> {
-    File::open(real)
+    let file = File::open(real)?;
+    if final_path(&file)? != real {
+        return Err(io::Error::other("it was replaced by a link while it was opened"));
+    }
+    Ok(file)
+}
+
+/// Returns the path of an open file without links, in the form of [`Path::canonicalize`].
+#[cfg(windows)]
+fn final_path(file: &File) -> io::Result<PathBuf> {
+    use std::{
+        ffi::OsString,
+        os::windows::{ffi::OsStringExt, io::AsRawHandle},
+    };
+    use windows_sys::Win32::Storage::FileSystem::{FILE_NAME_NORMALIZED, GetFinalPathNameByHandleW};
+    // The longest path that Windows has.
+    let mut path = vec![0; 1 << 15];
+    let (buffer, length) = (path.as_mut_ptr(), path.len() as u32);
+    // SAFETY: the file is open, and the buffer has this length.
+    let length = unsafe { GetFinalPathNameByHandleW(file.as_raw_handle(), buffer, length, FILE_NAME_NORMALIZED) };
+    match path.get(..length as usize) {
+        Some(path) if length > 0 => Ok(OsString::from_wide(path).into()),
+        Some(_) | None => Err(io::Error::last_os_error()),
+    }
 }
 
 #[cfg(test)]

@@ -109,6 +109,20 @@ fn pipes_sockets_and_devices_are_never_opened() {
     assert!(said(read_regular(&pipe, &pipe, SMALL)).contains("a pipe"));
 }
 
+/// A process needs a privilege to create links on Windows.
+#[cfg(windows)]
+#[test]
+fn a_link_that_replaces_a_file_is_not_followed() {
+    let dir = tempfile::tempdir().unwrap();
+    let folder = dir.path().canonicalize().unwrap();
+    fs::write(folder.join("secret"), "secret").unwrap();
+    assert_eq!(read_regular(&folder.join("secret"), Path::new("secret"), SMALL).unwrap(), b"secret");
+    let link = folder.join("link");
+    if std::os::windows::fs::symlink_file("secret", &link).is_ok() {
+        assert!(said(read_regular(&link, &link, SMALL)).contains("replaced by a link"));
+    }
+}
+
 #[cfg(unix)]
 #[test]
 fn files_of_settings_are_regular_and_small() {

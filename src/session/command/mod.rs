@@ -160,7 +160,7 @@ pub enum HaltCommand {
     DrawSmaller,
     /// Ends it with the newest code that was fast enough. The texts are unchanged.
     DrawLastGood,
-    /// Sets the time after which a frame pauses the picture.
+    /// Sets the time after which a frame pauses the picture, as in [`frame_limit`](crate::frame_limit).
     SetFrameLimit(Duration),
 }
 

@@ -103,7 +103,8 @@ fn acquire(data: &Path) -> io::Result<Lock> {
     }
 }
 
-/// Waits for the lock of the folder, which is created if necessary: readable by its owner only, as texts are private.
+/// Waits for the lock of the folder, which is created if necessary: readable by its owner only, as texts are private. On
+/// Windows it inherits the access of the user's folder of local data, which is private.
 fn turn(folder: &Path) -> io::Result<File> {
     let mut builder = DirBuilder::new();
     builder.recursive(true);
