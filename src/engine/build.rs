@@ -202,7 +202,8 @@ impl Builder {
         let externals = binder.externals;
         let orders: Vec<_> = drafts.iter_mut().flat_map(DrawDraft::take_orders).collect();
         if let Some(trial) = options.trial.as_ref().filter(|_| self.gpu.compiles_here && options.probe.is_none()) {
-            let order = TrialOrder { project, requested: &options.requested, skip: options.skip };
+            let adapter = &self.gpu.info.name;
+            let order = TrialOrder { project, requested: &options.requested, skip: options.skip, adapter };
             let tried = trial.of(order, &texts, &self.pipelines.missing(&orders));
             if let Err(error) = tried {
                 let diagnostics = diagnostics.into_iter().chain([error]).collect();

@@ -24,7 +24,7 @@ impl Running {
         let (uniforms, channels) = bindings.draws[index].groups(shared, compiled, draw, targets);
         for target in &targets[draw.targets.clone()] {
             if draw.region.is_some() && target.back() != target.front {
-                target.newest().copy_overlap(encoder, &target.textures[target.back()]);
+                target.newest().copy_overlap(&shared.gpu, encoder, &target.textures[target.back()]);
             }
         }
         let attach = |index: usize| {

@@ -256,11 +256,13 @@ impl External {
             }
         };
         let has_chain = source.constant().is_none() && texture.shape.levels > 1;
-        let mips = has_chain.then(|| {
-            let mut maker = MipMaker::new(gpu);
-            let chain = maker.chain(gpu, &texture);
-            (maker, chain)
-        });
+        let mips = match has_chain.then(|| MipMaker::new(gpu)) {
+            Some(mut maker) => {
+                let chain = maker.chain(gpu, &texture)?;
+                Some((maker, chain))
+            }
+            None => None,
+        };
         Ok(Self { key, source, texture, version: 0, mips })
     }
 

@@ -425,7 +425,7 @@ impl Engine {
             Some(made) => made,
             none => none.insert((Miniatures::new(gpu)?, Readback::default())),
         };
-        let bytes = readback.rgba8(gpu, miniatures.draw(gpu, newest.layer(layer)))?;
+        let bytes = readback.rgba8(gpu, miniatures.draw(gpu, &newest.readable(gpu, layer, 0)?))?;
         let (width, height) = MINIATURE_SIZE;
         let of = (newest.width(), newest.height());
         Ok(Miniature::new(Picture { width, height, bytes }, of))
@@ -454,7 +454,8 @@ impl Engine {
             (0..target.newest().shape.layers()).map(move |layer| (index, layer)).collect::<Vec<_>>()
         };
         let places: Vec<(usize, u32)> = running.targets.iter().enumerate().filter(is_drawn).flat_map(layers).collect();
-        let views: Vec<_> = places.iter().map(|(i, layer)| running.targets[*i].newest().layer(*layer)).collect();
+        let view = |&(index, layer): &(usize, u32)| running.targets[index].newest().readable(gpu, layer, 0);
+        let views = places.iter().map(view).collect::<Result<Vec<_>, _>>()?;
         let texels = self.viewer.get_or_insert_with(|| Viewer::new(gpu)).texels(gpu, &views, at)?;
         let values = places.iter().zip(texels).map(|((index, layer), value)| {
             let target = &running.targets[*index];

@@ -66,7 +66,7 @@ impl Snapshot {
                     return Ok((shape, None));
                 }
                 let copy = Texture::new(gpu, &TextureDescriptor { label: "snapshot", shape, is_target: true })?;
-                texture.copy_overlap(&mut encoder, &copy);
+                texture.copy_overlap(gpu, &mut encoder, &copy);
                 Ok((shape, Some(copy)))
             };
             kept.push(TargetCopy {
@@ -128,7 +128,7 @@ impl Running {
             target.front = kept.front;
             for (index, ((_, copy), texture)) in kept.textures.iter().zip(&target.textures).enumerate() {
                 let Some(copy) = copy else { continue };
-                copy.copy_overlap(&mut encoder, texture);
+                copy.copy_overlap(gpu, &mut encoder, texture);
                 if let Some(chain) = target.chains.get(index) {
                     shared.mips.build(gpu, &mut encoder, chain);
                 }

@@ -26,7 +26,8 @@ impl Target {
         let descriptor = TextureDescriptor { label: &label, shape: planned.shape(canvas), is_target: true };
         let textures =
             (0..planned.textures()).map(|_| Texture::new(gpu, &descriptor)).collect::<Result<Vec<_>, _>>()?;
-        let chains = if planned.mips { textures.iter().map(|t| mips.chain(gpu, t)).collect() } else { Vec::new() };
+        let mipped = textures.iter().filter(|_| planned.mips);
+        let chains = mipped.map(|texture| mips.chain(gpu, texture)).collect::<Result<_, _>>()?;
         Ok(Target { id: planned.id.clone(), index: planned.index, textures, chains, front: 0 })
     }
 
@@ -63,7 +64,7 @@ impl Target {
         let mut encoder = gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("keep") });
         for (index, texture) in self.textures.iter().enumerate() {
             let from = if self.textures.len() == 1 { old.newest() } else { &old.textures[index % old.textures.len()] };
-            from.copy_overlap(&mut encoder, texture);
+            from.copy_overlap(gpu, &mut encoder, texture);
         }
         for chain in &self.chains {
             mips.build(gpu, &mut encoder, chain);

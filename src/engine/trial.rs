@@ -20,6 +20,8 @@ pub struct TrialOrder<'a> {
     /// The same as in [`super::BuildOptions`].
     pub requested: &'a [PassName],
     pub skip: bool,
+    /// The name of the device's adapter.
+    pub adapter: &'a str,
 }
 
 type Run = dyn Fn(TrialOrder<'_>) -> Result<(), TrialError> + Send + Sync;

@@ -42,7 +42,7 @@ impl Uploads {
                 texture.write_level(gpu, n, &level.bytes);
             }
         } else if mips {
-            let chain = self.mips.chain(gpu, &texture);
+            let chain = self.mips.chain(gpu, &texture)?;
             let mut encoder = gpu.device.create_command_encoder(&Default::default());
             self.mips.build(gpu, &mut encoder, &chain);
             gpu.queue.submit([encoder.finish()]);

@@ -37,7 +37,7 @@ impl Viewer {
         };
         let texture = self.texture.insert(texture);
         self.painter.set(gpu, look);
-        let bound = self.painter.bind(gpu, values.layer(layer));
+        let bound = self.painter.bind(gpu, &values.readable(gpu, layer, 0)?);
         let descriptor = wgpu::CommandEncoderDescriptor { label: Some("picture of values") };
         let mut encoder = gpu.device.create_command_encoder(&descriptor);
         self.painter.present(gpu, &mut encoder, &bound, texture);
@@ -49,7 +49,7 @@ impl Viewer {
     pub(crate) fn texels(
         &mut self,
         gpu: &Gpu,
-        views: &[&wgpu::TextureView],
+        views: &[wgpu::TextureView],
         at: [f32; 2],
     ) -> Result<Vec<[f32; 4]>, GpuError> {
         self.picker.pick(gpu, views, at)

@@ -1,6 +1,6 @@
 //! The choice among the graphics adapters of a machine.
 
-use super::GpuError;
+use super::{GpuError, opengl};
 
 /// The adapter that a device is opened on.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -34,6 +34,15 @@ impl AdapterChoice {
 
     /// Returns the error for a choice that fits none of the adapters, with the reason of each instance.
     pub fn missing(&self, reasons: &[String]) -> GpuError {
+        self.error(reasons, GpuError::NoAdapter)
+    }
+
+    /// Does the same for a choice that fits none of the adapters that draw on a window.
+    pub fn missing_for_window(&self, reasons: &[String]) -> GpuError {
+        self.error(reasons, GpuError::NoWindowAdapter)
+    }
+
+    fn error(&self, reasons: &[String], of: fn(String) -> GpuError) -> GpuError {
         let mut why: Vec<&str> = reasons.iter().map(String::as_str).collect();
         why.dedup();
         // An instance of another backend has others.
@@ -43,7 +52,7 @@ impl AdapterChoice {
         let why = why.join("; ");
         match self {
             AdapterChoice::Named(name) => GpuError::NoSuchAdapter { name: name.clone(), why },
-            AdapterChoice::HighPerformance | AdapterChoice::LowPower => GpuError::NoAdapter(why),
+            AdapterChoice::HighPerformance | AdapterChoice::LowPower => of(why),
         }
     }
 
@@ -61,12 +70,33 @@ impl AdapterChoice {
         };
         let options =
             wgpu::RequestAdapterOptions { power_preference, compatible_surface: surface, ..Default::default() };
-        pollster::block_on(instance.request_adapter(&options)).map_err(|e| e.to_string())
+        match pollster::block_on(instance.request_adapter(&options)) {
+            Ok(adapter) => Ok(opengl::with_float_targets(instance, adapter)),
+            Err(error) if surface.is_none() => Err(error.to_string()),
+            Err(_) => Err(without_windows(instance)),
+        }
     }
 }
 
 /// The reason of an instance without adapters.
 const NONE: &str = "this machine has none";
+
+/// Returns the reason why none of an instance's adapters draws on a window, as [`AdapterChoice::choose`] does.
+pub fn without_windows(instance: &wgpu::Instance) -> String {
+    let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
+    let reason = |info: wgpu::AdapterInfo| format!("{} ({}) cannot draw on this window", info.name, info.backend);
+    let reasons: Vec<String> = adapters.iter().map(|adapter| reason(adapter.get_info())).collect();
+    if reasons.is_empty() { NONE.into() } else { reasons.join("; ") }
+}
+
+/// Returns the reason of an instance with these backends, for a list of the reasons of several.
+pub fn of_backends(backends: wgpu::Backends, reason: String) -> String {
+    use wgpu::Backends as B;
+    let built = backends & wgpu::Instance::enabled_backend_features();
+    let all = [(B::VULKAN, "Vulkan"), (B::METAL, "Metal"), (B::DX12, "Direct3D 12"), (B::GL, "OpenGL")];
+    let names: Vec<&str> = all.iter().filter(|(backend, _)| built.contains(*backend)).map(|(_, name)| *name).collect();
+    if reason == NONE { format!("no device for {}", names.join(" or ")) } else { reason }
+}
 
 fn named(instance: &wgpu::Instance, surface: Option<&wgpu::Surface<'_>>, name: &str) -> Result<wgpu::Adapter, String> {
     let adapters = pollster::block_on(instance.enumerate_adapters(wgpu::Backends::all()));
@@ -74,7 +104,7 @@ fn named(instance: &wgpu::Instance, surface: Option<&wgpu::Surface<'_>>, name: &
     let is_usable = |adapter: &wgpu::Adapter| surface.is_none_or(|surface| adapter.is_surface_supported(surface));
     let places = adapters.into_iter().zip(&names).filter(|(_, own)| is_named(own, name));
     match places.map(|(adapter, _)| adapter).find(is_usable) {
-        Some(adapter) => Ok(adapter),
+        Some(adapter) => Ok(opengl::with_float_targets(instance, adapter)),
         None if names.iter().any(|own| is_named(own, name)) => Err("it cannot draw on this window".into()),
         None if names.is_empty() => Err(NONE.into()),
         None => Err(format!("this machine has {}", names.join(", "))),

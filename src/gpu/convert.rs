@@ -38,8 +38,7 @@ impl FloatConverter {
         let descriptor =
             TextureDescriptor { label: "as floats", shape: TextureShape::flat(width, height, FORMAT), is_target: true };
         let floats = Texture::new(gpu, &descriptor)?;
-        let view = picture.level("as floats", layer, level);
-        let read = self.shader.bind(gpu, &view);
+        let read = self.shader.bind(gpu, &picture.readable(gpu, layer, level)?);
         let mut encoder =
             gpu.device.create_command_encoder(&wgpu::CommandEncoderDescriptor { label: Some("as floats") });
         let target = floats.attachment(wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT));

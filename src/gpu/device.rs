@@ -1,6 +1,6 @@
 //! The device with its known properties, and the priority of threads where the CPU draws.
 
-use super::{AdapterChoice, direct3d::HlslCompiler, loss};
+use super::{AdapterChoice, direct3d::HlslCompiler, faces::Faces, loss, opengl};
 use std::{
     sync::{
         Arc, Mutex,
@@ -49,6 +49,11 @@ pub enum GpuError {
          that runs on the CPU"
     )]
     NoAdapter(String),
+    #[error(
+        "no graphics device can draw on this window: {0}. `eddy render` draws without a window. On Debian or Ubuntu, \
+         `apt-get install mesa-vulkan-drivers` installs a device that draws on windows with the CPU"
+    )]
+    NoWindowAdapter(String),
     #[error("no graphics adapter has {name:?} in its name: {why}")]
     NoSuchAdapter { name: String, why: String },
     #[error("cannot open {adapter}: {reason}")]
@@ -130,8 +135,8 @@ pub struct Gpu {
     pub misjudges_limits: bool,
     /// A loop over an array by its counter is always unrolled, regardless of the cost: Mesa's compiler does so.
     pub unrolls_whole_arrays: bool,
-    /// Shaders are compiled on the CPU in this process, by a compiler whose time and memory grow out of proportion for
-    /// large shaders: LLVM, in lavapipe.
+    /// Shaders are compiled for the CPU in this process, by a compiler whose time and memory grow out of proportion for
+    /// large shaders: LLVM in lavapipe, Subzero in SwiftShader.
     pub compiles_here: bool,
     /// The number of iterations after which a shader leaves loops that may be endless: they would block the device for
     /// all programs until a reset or longer. `None` on a CPU, which can be shared.
@@ -145,6 +150,8 @@ pub struct Gpu {
     pub(super) treat_as_gpu: bool,
     pub(super) runtime_checks: bool,
     pub(super) fences: Option<super::fences::FenceKeeper>,
+    /// Present where a face of a cubemap cannot be read through a view of its own.
+    pub(super) faces: Option<Arc<Faces>>,
     state: Arc<State>,
 }
 
@@ -180,8 +187,8 @@ impl Gpu {
         for descriptor in Self::instance_descriptors() {
             let instance = wgpu::Instance::new(descriptor);
             let adapters = pollster::block_on(instance.enumerate_adapters(info.backend.into()));
-            if let Some(adapter) = adapters.iter().find(|adapter| is_same(&adapter.get_info())) {
-                return Self::from_adapter(adapter, options);
+            if let Some(adapter) = adapters.into_iter().find(|adapter| is_same(&adapter.get_info())) {
+                return Self::from_adapter(&opengl::with_float_targets(&instance, adapter), options);
             }
         }
         Self::new(options)
@@ -216,10 +223,8 @@ impl Gpu {
         if is_lavapipe {
             features |= offered & wgpu::Features::PASSTHROUGH_SHADERS;
         }
-        let float = adapter.get_texture_format_features(wgpu::TextureFormat::Rgba32Float).allowed_usages;
-        if !float.contains(wgpu::TextureUsages::RENDER_ATTACHMENT) {
-            let reason = "it cannot draw into 32-bit float textures".to_owned();
-            return Err(GpuError::NoDevice { adapter: info.name, reason });
+        if !opengl::has_float_targets(adapter) {
+            return Err(opengl::no_float_targets(&info));
         }
         let (device, queue) = pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor {
             label: Some("eddy"),
@@ -253,12 +258,13 @@ impl Gpu {
             log::error!("graphics layer: {error}");
             errors.uncaptured.lock().unwrap_or_else(|e| e.into_inner()).get_or_insert(error.to_string());
         }));
-        Ok(Gpu {
+        let gpu = Gpu {
             has_storage_buffers: device.limits().max_storage_buffers_per_shader_stage > 0,
             filters_float32: features.contains(wgpu::Features::FLOAT32_FILTERABLE),
             recompiles_for_uniforms: is_lavapipe,
             keeps_denormals: is_lavapipe,
-            compiles_here: is_lavapipe,
+            // A GPU's compiler takes milliseconds where LLVM takes seconds; SwiftShader and WARP compile as LLVM does.
+            compiles_here: info.device_type == wgpu::DeviceType::Cpu,
             wants_array_loops: features.contains(wgpu::Features::PASSTHROUGH_SHADERS),
             runs_discarded: info.name.starts_with("llvmpipe"),
             scatters_arrays: info.name.starts_with("llvmpipe"),
@@ -272,12 +278,18 @@ impl Gpu {
             treat_as_gpu: options.treat_as_gpu,
             runtime_checks: options.runtime_checks,
             fences: is_lavapipe.then(|| super::fences::FenceKeeper::new(&device)),
+            faces: (info.backend == wgpu::Backend::Gl).then(Arc::default),
             has_timestamps: features.contains(wgpu::Features::TIMESTAMP_QUERY),
             device,
             queue,
             info,
             state,
-        })
+        };
+        if gpu.info.backend == wgpu::Backend::Gl {
+            opengl::filter_across_faces(&gpu.device);
+            opengl::try_float_targets(&gpu)?;
+        }
+        Ok(gpu)
     }
 
     /// Returns a description for users: the adapter's name, the backend and the driver.

@@ -1,7 +1,7 @@
 //! Mip chains, level by level: each texel is the bilinear read of the finer level at its centre, as by GL drivers'
 //! `glGenerateMipmap`. The filter is part of the shader, so it also works where 32-bit floats cannot be filtered.
 
-use super::{Gpu, Texture, full_screen::PictureShader};
+use super::{Gpu, GpuError, Texture, faces::BoundFace, full_screen::PictureShader};
 use std::collections::HashMap;
 
 const SHADER: &str = "
@@ -30,8 +30,16 @@ pub struct MipMaker {
 
 /// The draws that fill one texture's chain: views and bind groups, created once.
 pub struct MipChain {
-    steps: Vec<(wgpu::TextureView, wgpu::BindGroup)>,
+    steps: Vec<Step>,
     format: wgpu::TextureFormat,
+}
+
+/// The draw of one level.
+struct Step {
+    level: wgpu::TextureView,
+    finer: wgpu::BindGroup,
+    /// The finer level, and the flat texture that it is drawn into first, where it has no view of its own.
+    flattened: Option<(BoundFace, Texture)>,
 }
 
 impl MipMaker {
@@ -41,20 +49,37 @@ impl MipMaker {
 
     /// Prepares the chain of a texture; for a cube, one per face. Levels of a volume are written instead: see
     /// [`Texture::write_level`].
-    pub fn chain(&mut self, gpu: &Gpu, texture: &Texture) -> MipChain {
+    pub fn chain(&mut self, gpu: &Gpu, texture: &Texture) -> Result<MipChain, GpuError> {
         let format = texture.raw.format();
         self.pipelines.entry(format).or_insert_with(|| self.shader.pipeline(gpu, format));
         let view = |layer, level| texture.level("mip level", layer, level);
-        let steps = (0..texture.shape.layers())
-            .flat_map(|layer| (1..texture.shape.levels).map(move |level| (layer, level)))
-            .map(|(layer, level)| (view(layer, level), self.shader.bind(gpu, &view(layer, level - 1))))
-            .collect();
-        MipChain { steps, format }
+        let mut steps = Vec::new();
+        for level in 1..texture.shape.levels {
+            // The layers share it, one after the other.
+            let mut flat = None;
+            for layer in 0..texture.shape.layers() {
+                let flattened = match texture.bound_face(gpu, layer, level - 1) {
+                    Some(bound) if flat.is_none() => {
+                        Some((bound, flat.insert(texture.flat_level(gpu, level - 1)?).clone()))
+                    }
+                    bound => bound.zip(flat.clone()),
+                };
+                let finer = match &flattened {
+                    Some((_, flat)) => self.shader.bind(gpu, &flat.level_0),
+                    None => self.shader.bind(gpu, &view(layer, level - 1)),
+                };
+                steps.push(Step { level: view(layer, level), finer, flattened });
+            }
+        }
+        Ok(MipChain { steps, format })
     }
 
     /// Encodes the draws that rebuild every level from level 0.
     pub fn build(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, chain: &MipChain) {
-        for (level, finer) in &chain.steps {
+        for Step { level, finer, flattened } in &chain.steps {
+            if let Some((face, flat)) = flattened {
+                face.draw(gpu, encoder, &flat.level_0, (flat.width(), flat.height()));
+            }
             let target = wgpu::RenderPassColorAttachment {
                 view: level,
                 depth_slice: None,

@@ -34,7 +34,7 @@ impl TexelPicker {
 
     /// Returns the texel of each picture at a place, from 0 to 1 across and up: missing components as 0, alpha as 1.
     /// Waits for the device once.
-    pub fn pick(&mut self, gpu: &Gpu, views: &[&wgpu::TextureView], at: [f32; 2]) -> Result<Vec<[f32; 4]>, GpuError> {
+    pub fn pick(&mut self, gpu: &Gpu, views: &[wgpu::TextureView], at: [f32; 2]) -> Result<Vec<[f32; 4]>, GpuError> {
         if views.is_empty() {
             return Ok(Vec::new());
         }

@@ -30,6 +30,8 @@ impl Readback {
         let shape = texture.shape.without_mips();
         let mut bytes = Vec::with_capacity(shape.bytes() as usize);
         for layer in 0..shape.depth * shape.layers() {
+            let flat = texture.flat_copy(gpu, layer, 0)?;
+            let (texture, layer) = flat.as_ref().map_or((texture, layer), |flat| (flat, 0));
             self.rows(gpu, texture, (layer, shape.format.bytes() as usize), |row| bytes.extend_from_slice(row))?;
         }
         Ok(bytes)

@@ -1,6 +1,6 @@
 //! The device for tests, and the reporting of skipped tests.
 
-use crate::{Gpu, GpuOptions};
+use crate::{AdapterChoice, Gpu, GpuOptions};
 use std::{fs::OpenOptions, io::Write};
 
 /// Returns a device, or reports a skipped test and returns `None`. If `EDDY_REQUIRE_GPU` is set, a missing device is a
@@ -32,6 +32,16 @@ pub fn weak_gpu() -> Option<Gpu> {
     };
     let limits = Some(limits);
     gpu_with(&GpuOptions { limits, use_float32_filtering: false, use_timestamps: false, ..GpuOptions::default() })
+}
+
+/// Returns a device on OpenGL, or reports a skipped test and returns `None`.
+pub fn opengl() -> Option<Gpu> {
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle();
+    descriptor.backends = wgpu::Backends::GL;
+    let opened = AdapterChoice::default()
+        .choose(&wgpu::Instance::new(descriptor), None)
+        .and_then(|adapter| Gpu::from_adapter(&adapter, &GpuOptions::default()).map_err(|error| error.to_string()));
+    opened.map_err(|error| skipped(&format!("no OpenGL: {error}"))).ok()
 }
 
 /// Makes a device refuse everything from now on, as one does that the driver has reset.

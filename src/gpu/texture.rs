@@ -172,14 +172,21 @@ impl Texture {
     }
 
     /// Copies the overlap of two textures of one format, texel for texel from row 0, column 0.
-    pub fn copy_overlap(&self, encoder: &mut wgpu::CommandEncoder, to: &Texture) {
+    pub fn copy_overlap(&self, gpu: &Gpu, encoder: &mut wgpu::CommandEncoder, to: &Texture) {
         let (from, into) = (extent(self.shape), extent(to.shape));
         let size = wgpu::Extent3d {
             width: from.width.min(into.width),
             height: from.height.min(into.height),
             depth_or_array_layers: from.depth_or_array_layers.min(into.depth_or_array_layers),
         };
-        encoder.copy_texture_to_texture(self.raw.as_image_copy(), to.raw.as_image_copy(), size);
+        let face = |layer| Some((layer, self.bound_face(gpu, layer, 0)?));
+        let faces: Vec<_> = (0..self.shape.layers()).filter_map(face).collect();
+        for (layer, face) in &faces {
+            face.draw(gpu, encoder, to.layer(*layer), (size.width, size.height));
+        }
+        if faces.is_empty() {
+            encoder.copy_texture_to_texture(self.raw.as_image_copy(), to.raw.as_image_copy(), size);
+        }
     }
 
     /// Sets all texels of level 0 of every layer. The texture must be a target.

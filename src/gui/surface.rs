@@ -10,7 +10,7 @@ use super::{
     damage::Area,
     surface_faults::Faults,
 };
-use crate::gpu::{AdapterChoice, Gpu, GpuOptions, loss};
+use crate::gpu::{AdapterChoice, Gpu, GpuError, GpuOptions, loss, of_backends, without_windows};
 use egui_wgpu::{Renderer, RendererOptions, ScreenDescriptor};
 use std::{
     panic::{AssertUnwindSafe, catch_unwind, resume_unwind},
@@ -18,29 +18,52 @@ use std::{
 };
 use winit::{dpi::PhysicalSize, event_loop::OwnedDisplayHandle, window::Window};
 
-/// Returns the first instance with a device for the window.
+/// A device that draws on the window, with all that it was opened from.
+struct Opened {
+    instance: wgpu::Instance,
+    surface: wgpu::Surface<'static>,
+    adapter: wgpu::Adapter,
+    gpu: Gpu,
+}
+
+/// Returns the first device that can be opened for the window. The error names the reason of each backend.
 fn open(
     window: &Arc<Window>,
     display: &OwnedDisplayHandle,
     choice: &AdapterChoice,
-) -> Result<(wgpu::Instance, wgpu::Surface<'static>, wgpu::Adapter), GuiError> {
+    open_device: impl Fn(&wgpu::Adapter) -> Result<Gpu, GpuError>,
+) -> Result<Opened, GuiError> {
     let mut reasons = Vec::new();
     for mut descriptor in Gpu::instance_descriptors() {
+        let backends = descriptor.backends;
         descriptor.display = Some(Box::new(display.clone()));
         let instance = wgpu::Instance::new(descriptor);
-        let surface = match instance.create_surface(window.clone()) {
-            Ok(surface) => surface,
-            Err(e) => {
-                reasons.push(e.to_string());
+        let found = match instance.create_surface(window.clone()) {
+            Ok(surface) => choice.choose(&instance, Some(&surface)).map(|adapter| (surface, adapter)),
+            // No driver of these backends supports windows. wgpu's message names neither the driver nor the device.
+            Err(error) => {
+                log::debug!("{error}");
+                Err(without_windows(&instance))
+            }
+        };
+        let (surface, adapter) = match found {
+            Ok(found) => found,
+            Err(why) => {
+                reasons.push(of_backends(backends, why));
                 continue;
             }
         };
-        match choice.choose(&instance, Some(&surface)) {
-            Ok(adapter) => return Ok((instance, surface, adapter)),
-            Err(why) => reasons.push(why),
+        match open_device(&adapter) {
+            Ok(gpu) => {
+                for why in reasons {
+                    log::info!("{} draws the window: {why}", gpu.info.name);
+                }
+                return Ok(Opened { instance, surface, adapter, gpu });
+            }
+            Err(why) => reasons.push(why.to_string()),
         }
     }
-    Err(GuiError::Gpu(choice.missing(&reasons)))
+    Err(GuiError::Gpu(choice.missing_for_window(&reasons)))
 }
 
 /// Returns the options for the window's device on an adapter. With the variable `EDDY_TREAT_AS_GPU`, a processor that draws is treated as
@@ -122,8 +145,8 @@ impl Surface {
         adapter: AdapterChoice,
     ) -> Result<Surface, GuiError> {
         let options = options(adapter);
-        let (instance, surface, adapter) = open(window, &display, &options.adapter)?;
-        let gpu = Gpu::from_adapter(&adapter, &options)?;
+        let open_device = |adapter: &wgpu::Adapter| Gpu::from_adapter(adapter, &options);
+        let Opened { instance, surface, adapter, gpu } = open(window, &display, &options.adapter, open_device)?;
         let config = config(&surface, &adapter, window.inner_size(), true)?;
         surface.configure(&gpu.device, &config);
         color_space::tag_as_srgb(&surface);
@@ -147,8 +170,10 @@ impl Surface {
     /// Replaces the lost device and surface with new ones. egui's fonts are kept; all other textures were on the lost
     /// device, and must be recreated by their owners.
     pub(super) fn reopen_device(&mut self, window: &Arc<Window>, ctx: &egui::Context) -> Result<(), GuiError> {
-        let (instance, surface, adapter) = open(window, &self.display, &self.options.adapter)?;
-        let gpu = loss::reopen(loss::RESET_TIMEOUT, || Gpu::from_adapter(&adapter, &self.options))?;
+        let options = &self.options;
+        let Opened { instance, surface, adapter, gpu } = open(window, &self.display, &options.adapter, |adapter| {
+            loss::reopen(loss::RESET_TIMEOUT, || Gpu::from_adapter(adapter, options))
+        })?;
         self.config = config(&surface, &adapter, window.inner_size(), self.vsync)?;
         // A window has one swapchain: the old surface must be dropped before a new one is created. That panics if the
         // device was lost while a frame was presented, which then still exists (see `present`).

@@ -5,7 +5,7 @@
 //! compiled shaders on disk, so that the parent does not compile them a second time.
 
 use eddy_engine::{BuildOptions, DrawFor, FrameInputs, Trial, TrialError, TrialOrder};
-use eddy_gpu::{Gpu, GpuOptions};
+use eddy_gpu::{AdapterChoice, Gpu, GpuOptions};
 use eddy_media as media;
 use eddy_project::{self as project, PassName, limits};
 use serde::{Deserialize, Serialize};
@@ -66,7 +66,7 @@ impl TrialSettings {
     /// A project that cannot be passed on, or a machine that cannot start a process, does not reject a program.
     fn run(
         &self,
-        TrialOrder { project, requested: wanted, skip }: TrialOrder<'_>,
+        TrialOrder { project, requested: wanted, skip, adapter }: TrialOrder<'_>,
         media: Option<PathBuf>,
         jobs: &AtomicU64,
     ) -> Result<(), TrialError> {
@@ -75,6 +75,7 @@ impl TrialSettings {
             snapshot,
             wanted: wanted.iter().map(|pass| pass.key().to_owned()).collect(),
             skip,
+            adapter: adapter.to_owned(),
             media,
             limit_secs: self.limit.as_secs_f64(),
         };
@@ -127,6 +128,7 @@ struct Request {
     snapshot: String,
     wanted: Vec<String>,
     skip: bool,
+    adapter: String,
     media: Option<PathBuf>,
     limit_secs: f64,
 }
@@ -136,9 +138,9 @@ struct Request {
 pub fn serve(mut request: impl Read) -> Result<(), Box<dyn std::error::Error>> {
     let mut text = String::new();
     request.read_to_string(&mut text)?;
-    let Request { snapshot, wanted, skip, media, limit_secs } = serde_json::from_str(&text)?;
+    let Request { snapshot, wanted, skip, adapter, media, limit_secs } = serde_json::from_str(&text)?;
     let wanted: Vec<PassName> = wanted.iter().filter_map(|key| PassName::parse(key)).collect();
-    let gpu = Gpu::new(&GpuOptions::default())?;
+    let gpu = Gpu::new(&GpuOptions { adapter: AdapterChoice::Named(adapter), ..GpuOptions::default() })?;
     if !gpu.compiles_here {
         return Ok(());
     }
@@ -222,7 +224,7 @@ mod tests {
         std::fs::set_permissions(&program, std::fs::Permissions::from_mode(0o700)).expect("it may run");
         let settings = TrialSettings { program, limit: Duration::from_secs(60) };
         let project = Project::of_image("Untitled".into(), IMAGE.into());
-        settings.run(TrialOrder { project: &project, requested: &[], skip: true }, None, jobs)
+        settings.run(TrialOrder { project: &project, requested: &[], skip: true, adapter: "" }, None, jobs)
     }
 
     #[test]
@@ -240,7 +242,7 @@ mod tests {
         assert_eq!(tried("exit 1", &AtomicU64::new(0)), Ok(()));
         let settings = TrialSettings { program: "/nonexistent/eddy".into(), limit: Duration::from_secs(60) };
         let project = Project::of_image("Untitled".into(), IMAGE.into());
-        let order = TrialOrder { project: &project, requested: &[], skip: true };
+        let order = TrialOrder { project: &project, requested: &[], skip: true, adapter: "" };
         assert_eq!(settings.run(order, None, &AtomicU64::new(0)), Ok(()));
     }
 

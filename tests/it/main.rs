@@ -24,6 +24,7 @@ mod cubemaps;
 mod dialect_conversions;
 mod dialect_pictures;
 mod directives;
+mod drivers;
 mod elsewhere;
 mod engine;
 mod exports;
