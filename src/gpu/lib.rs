@@ -10,6 +10,7 @@ mod device;
 mod fences;
 mod full_screen;
 pub mod loss;
+mod mesa;
 mod mesh;
 mod miniature;
 mod mips;
