@@ -1,6 +1,6 @@
 //! The device with its known properties, and the priority of threads where the CPU draws.
 
-use super::{AdapterChoice, direct3d::HlslCompiler, faces::Faces, loss, opengl};
+use super::{AdapterChoice, direct3d::HlslCompiler, faces::Faces, loss, mesa, opengl};
 use std::{
     sync::{
         Arc, Mutex,
@@ -121,6 +121,9 @@ pub struct Gpu {
     pub keeps_denormals: bool,
     /// `atan2(0, 0)` may be NaN, as in Direct3D; on Shadertoy, which then computes another angle, it is 0.
     pub nan_angle: bool,
+    /// The minimum or maximum of a number and NaN may be NaN, where GPUs return the number. Some drivers that draw on
+    /// the CPU do so, which SPIR-V allows.
+    pub nan_extremes: bool,
     /// Long arrays must be filled and copied by loops, and their zero initialisers omitted: lavapipe turns them into
     /// one store per scalar, for which LLVM takes more than quadratic time.
     pub wants_array_loops: bool,
@@ -147,6 +150,8 @@ pub struct Gpu {
     pub has_timestamps: bool,
     /// A window is painted on this device too: engines submit their frames in slices, so that painting runs in between.
     pub slices: Option<Slices>,
+    /// Modules are given to the driver as SPIR-V where that should differ from what wgpu writes (`spirv`).
+    pub(super) passes_spirv: bool,
     pub(super) treat_as_gpu: bool,
     pub(super) runtime_checks: bool,
     pub(super) fences: Option<super::fences::FenceKeeper>,
@@ -220,7 +225,7 @@ impl Gpu {
             features |= offered & wgpu::Features::TIMESTAMP_QUERY;
         }
         let is_lavapipe = info.backend == wgpu::Backend::Vulkan && info.name.starts_with("llvmpipe");
-        if is_lavapipe {
+        if info.backend == wgpu::Backend::Vulkan {
             features |= offered & wgpu::Features::PASSTHROUGH_SHADERS;
         }
         if !opengl::has_float_targets(adapter) {
@@ -239,6 +244,9 @@ impl Gpu {
         if !features.contains(wgpu::Features::FLOAT32_FILTERABLE) {
             log::warn!("{} cannot filter 32-bit float textures: filtered reads use four fetches", info.name);
         }
+        let mesa = mesa::version(&info.driver_info);
+        let passes_spirv = features.contains(wgpu::Features::PASSTHROUGH_SHADERS);
+        let is_llvmpipe = info.name.starts_with("llvmpipe");
         // A report about a panic names the newest device.
         log::info!(target: "eddy::device", "{} ({}, {})", info.name, info.backend, info.driver_info);
         let hlsl_compiler = HlslCompiler::of(info.backend);
@@ -265,12 +273,14 @@ impl Gpu {
             keeps_denormals: is_lavapipe,
             // A GPU's compiler takes milliseconds where LLVM takes seconds; SwiftShader and WARP compile as LLVM does.
             compiles_here: info.device_type == wgpu::DeviceType::Cpu,
-            wants_array_loops: features.contains(wgpu::Features::PASSTHROUGH_SHADERS),
-            runs_discarded: info.name.starts_with("llvmpipe"),
-            scatters_arrays: info.name.starts_with("llvmpipe"),
-            misjudges_limits: info.driver_info.contains("Mesa"),
+            passes_spirv,
+            wants_array_loops: is_lavapipe && passes_spirv,
+            runs_discarded: is_llvmpipe,
+            scatters_arrays: is_llvmpipe,
+            misjudges_limits: info.driver_info.contains("Mesa") && mesa::misjudges_limits(mesa),
             unrolls_whole_arrays: info.driver_info.contains("Mesa"),
-            keeps_loops_open: info.name.starts_with("llvmpipe"),
+            keeps_loops_open: is_llvmpipe && mesa::keeps_loops_open(mesa),
+            nan_extremes: passes_spirv && info.device_type == wgpu::DeviceType::Cpu && mesa::has_nan_extremes(mesa),
             nan_angle: info.backend == wgpu::Backend::Dx12,
             max_loop_iterations: (info.device_type != wgpu::DeviceType::Cpu).then_some(MAX_LOOP_ITERATIONS),
             hlsl_compiler,

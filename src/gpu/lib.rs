@@ -13,6 +13,7 @@ mod fences;
 mod full_screen;
 mod limits;
 pub mod loss;
+mod mesa;
 mod mesh;
 mod miniature;
 mod mips;

@@ -57,9 +57,10 @@ pub(super) fn shader_module(
     shader: Shader<'_>,
     groups: &[Vec<(u32, Binding)>],
 ) -> wgpu::ShaderModule {
-    let Shader { module, initialized_arrays } = shader;
-    if let Some(initialized_arrays) = initialized_arrays.filter(|_| gpu.wants_array_loops && !gpu.runtime_checks)
-        && let Some(made) = spirv::shader_module(gpu, label, module, initialized_arrays, groups)
+    if gpu.passes_spirv
+        && !gpu.runtime_checks
+        && spirv::differs(gpu, shader)
+        && let Some(made) = spirv::shader_module(gpu, label, shader, groups)
     {
         return made;
     }
@@ -73,7 +74,7 @@ pub(super) fn shader_module(
     // Fetches outside a texture return zeros by the hardware or the driver's image robustness everywhere except on
     // Metal.
     checks.bounds_checks = gpu.runtime_checks || gpu.info.backend == wgpu::Backend::Metal;
-    // SAFETY: `module` always comes from the front end's lowering, and wgpu validates it; the omitted checks are done
+    // SAFETY: the module always comes from the front end's lowering, and wgpu validates it; the omitted checks are done
     // there:
     // - Every index is in bounds. `opt/ranges` documents the reasoning: a bound is valid where it is used.
     //   `tests/it/glsl_bounds.rs` covers each of its cases, and `tests/it/random_programs` compares random programs
@@ -85,7 +86,7 @@ pub(super) fn shader_module(
         gpu.device.create_shader_module_trusted(
             wgpu::ShaderModuleDescriptor {
                 label: Some(label),
-                source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(module.clone())),
+                source: wgpu::ShaderSource::Naga(std::borrow::Cow::Owned(shader.module.clone())),
             },
             checks,
         )

@@ -131,6 +131,7 @@ fn faults(gpu: &Gpu) -> Vec<Fault> {
             "FXC takes minutes for some shaders; put dxcompiler.dll beside eddy.exe",
         ),
         (gpu.nan_angle, "nan_angle", "atan(0, 0) is asked of other numbers"),
+        (gpu.nan_extremes, "nan_extremes", "minima and maxima are those that ignore NaN"),
         (gpu.wants_array_loops, "wants_array_loops", "long arrays are filled and copied by loops"),
         (gpu.keeps_loops_open, "keeps_loops_open", "loops begin with an exit that is never taken"),
         (gpu.runs_discarded, "runs_discarded", "loops end where a pixel is discarded"),

@@ -121,6 +121,27 @@ fn folded_constants_equal_the_values_of_the_device() {
     )]);
 }
 
+/// GPUs return the number of a number and NaN; programs rely on that where they take the root or the power of a negative
+/// number.
+#[test]
+fn extremes_ignore_nan() {
+    let Some(mut gpu) = gpu() else { return };
+    for replaces in [gpu.nan_extremes, true] {
+        gpu.nan_extremes = replaces;
+        let cases = [
+            case(
+                "float n = sqrt(Z - 1.0), a = Z + 3.0; r = vec4(max(a, n), max(n, a), min(a, n), min(n, a));",
+                [3.; 4],
+            ),
+            case(
+                "float n = pow(Z - 1.0, 8.0); vec2 v = max(vec2(n, Z + 2.0), vec2(Z)); r = vec4(max(0.0, n), v, clamp(n, 3.0, 9.0));",
+                [0., 0., 2., 3.],
+            ),
+        ];
+        check_on(&gpu, &cases, false);
+    }
+}
+
 /// In Direct3D the angle of (0, 0) is NaN; the device of this test returns some number.
 #[test]
 fn the_angle_of_a_zero_vector_is_defined() {

@@ -2,6 +2,11 @@
 //! values that they write.
 
 use crate::support::{compute::*, walked::assert_walked, *};
+use eddy::{
+    engine::Engine,
+    gpu::Gpu,
+    project::{PassName, Project},
+};
 
 #[test]
 fn loops_with_a_known_number_of_iterations() {
@@ -161,14 +166,21 @@ fn conditions_and_steps_start_with_fresh_locals() {
 /// Returns what eight pixels in a row draw, and checks that the walker computes the same: each is the `o` that `body`
 /// sets for its number `x`; `before` is code at file scope.
 fn row(before: &str, body: &str) -> Option<Vec<[f32; 4]>> {
-    let gpu = gpu()?;
+    let (mut engine, project) = row_on(&gpu()?, before, body);
+    assert_walked(&mut engine, &project, &PassName::image());
+    Some(texels(&mut engine))
+}
+
+/// Draws such a row on a device.
+fn row_on(gpu: &Gpu, before: &str, body: &str) -> (Engine, Project) {
     let code = format!("{before}\nvoid mainImage(out vec4 o, in vec2 p) {{ int x = int(p.x); {body} }}");
     let project = project(vec![image(&code, Default::default())]);
-    let mut engine = ran(&gpu, &project, (8, 1), 1);
-    let id = eddy::project::PassName::image();
-    assert_walked(&mut engine, &project, &id);
-    let pixels = engine.read(&id).unwrap();
-    Some((0..8).map(|x| texel(&pixels, x, 0)).collect())
+    (ran(gpu, &project, (8, 1), 1), project)
+}
+
+fn texels(engine: &mut Engine) -> Vec<[f32; 4]> {
+    let pixels = engine.read(&PassName::image()).unwrap();
+    (0..8).map(|x| texel(&pixels, x, 0)).collect()
 }
 
 /// A pixel keeps the values with which it left a loop while other pixels continue.
@@ -200,12 +212,16 @@ fn pixels_leave_a_loop_one_by_one() {
         let Some(drawn) = row("", &body) else { return };
         assert_eq!(drawn, expected, "{form}");
     }
-    let counted = "ivec3 v = ivec3(0, 0, 2); int fuel = 40;\n\
-                   while (true) { int c = v[x]; v[x] = c + 1; if (c < 2) break; if (--fuel < 0) break; } o = vec4(v, \
-                   1);";
-    let Some(drawn) = row("", counted) else { return };
-    let first = [[1., 0., 2., 1.], [0., 1., 2., 1.]];
-    assert_eq!(drawn, [&first[..], &[[0., 0., 43., 1.]; 6]].concat());
+    let Some(drawn) = row("", COUNTED) else { return };
+    assert_eq!(drawn, counted());
+}
+
+/// The first two pixels leave the loop in the first iteration.
+const COUNTED: &str = "ivec3 v = ivec3(0, 0, 2); int fuel = 40;\n\
+    while (true) { int c = v[x]; v[x] = c + 1; if (c < 2) break; if (--fuel < 0) break; } o = vec4(v, 1);";
+
+fn counted() -> Vec<[f32; 4]> {
+    [&[[1., 0., 2., 1.], [0., 1., 2., 1.]][..], &[[0., 0., 43., 1.]; 6]].concat()
 }
 
 /// A limit that is the minimum of two values is not a lower bound of the counter of a loop that counts down to it.
@@ -232,4 +248,17 @@ fn loops_can_count_down_to_a_minimum() {
         let Some(drawn) = row(RETURNS, &format!("int n = 0; {form} o = vec4(n, 0, 0, 1);")) else { return };
         assert_eq!(drawn, expected, "{form}");
     }
+}
+
+/// A fault is seen without its work-around if, and only if, the work-around is on for this version of the driver.
+#[test]
+fn work_arounds_are_on_where_their_faults_are_seen() {
+    let Some(gpu) = gpu() else { return };
+    let mut without = gpu.clone();
+    (without.keeps_loops_open, without.misjudges_limits) = (false, false);
+    let drawn = |body: &str| texels(&mut row_on(&without, "", body).0);
+    assert_eq!(drawn(COUNTED) != counted(), gpu.keeps_loops_open, "{}", gpu.describe());
+    let sums: Vec<_> = (0..8).map(|x: i32| [(x.min(6) + 1..5).sum::<i32>() as f32, 0.0, 0.0, 1.0]).collect();
+    let down = drawn("int n = 0; for (int i = 4; i > min(6, x); i--) n += i; o = vec4(n, 0, 0, 1);");
+    assert_eq!(down != sums, gpu.misjudges_limits, "{}", gpu.describe());
 }

@@ -122,6 +122,7 @@ mod translate;
 mod uniform_values;
 mod uniforms;
 mod unloaded_channels;
+mod validation;
 mod videos;
 mod walker;
 mod walker_corpus;
