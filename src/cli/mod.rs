@@ -74,13 +74,14 @@ pub enum Next {
 
 /// Parses and executes the command line. Usage errors, `--help` and `--version` end the process.
 pub fn main() -> Next {
-    startup::confine_libraries();
     let Cli { window, command } = parse().with_guests();
     let Some(mut command) = command else {
+        startup::confine_libraries();
         startup::close_own_console();
         return Next::Window(window.with_project_of_file());
     };
     if command.opens_device() {
+        startup::confine_libraries();
         quiet::ask_for_no_wayland();
     }
     let worker = std::thread::Builder::new().name("main".into()).stack_size(STACK_BYTES);

@@ -41,13 +41,17 @@ impl Default for GpuOptions {
     }
 }
 
+/// The fix for a machine without a graphics device.
+const DRIVER_HINT: &str = if cfg!(windows) {
+    "Install the newest driver from the maker of the graphics card: those of Windows Update may lack Vulkan"
+} else {
+    "On Debian or Ubuntu, `apt-get install mesa-vulkan-drivers` installs one that runs on the CPU"
+};
+
 /// The errors of the graphics device.
 #[derive(Debug, thiserror::Error)]
 pub enum GpuError {
-    #[error(
-        "no graphics device found ({0}). On Debian or Ubuntu, `apt-get install mesa-vulkan-drivers` installs one \
-         that runs on the CPU"
-    )]
+    #[error("no graphics device found ({0}). {DRIVER_HINT}")]
     NoAdapter(String),
     #[error(
         "no graphics device can draw on this window: {0}. `eddy render` draws without a window. On Debian or Ubuntu, \

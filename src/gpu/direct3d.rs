@@ -1,6 +1,6 @@
 //! The compiler that turns HLSL into programs for Direct3D 12.
 //!
-//! wgpu loads `dxcompiler.dll` (DXC) from the program's folder, a folder of the system or one of the search path, and else
+//! wgpu uses `dxcompiler.dll` (DXC), which the program has loaded from its own folder or one of the search path, and else
 //! `d3dcompiler_47.dll` (FXC), which is a part of Windows. FXC unrolls loops, and takes minutes for shaders that DXC compiles
 //! in seconds.
 
