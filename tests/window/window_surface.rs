@@ -112,7 +112,10 @@ fn files_that_were_copied_elsewhere_are_pasted_as_if_they_were_dropped() {
     // In a project, a picture is connected to a channel.
     let _manager = FileManager::copying(&display, &[&picture]);
     std::thread::sleep(Duration::from_millis(500));
-    window.click_on("viewport");
+    let picture_place = window.picture_point(0.5, 0.5);
+    window.move_to(picture_place);
+    window.press();
+    window.release();
     window.keys(&["ctrl+v"]);
     window.wait_until("the channel's line", "dirty", |e| e["dirty"] == true);
     window.save();
