@@ -4,7 +4,7 @@ use super::{
     Binding, Gpu, GpuError, Pipeline, Shader,
     bindings::{layouts, pipeline_layout},
     full_screen::color_targets,
-    pipeline::shader_module,
+    pipeline::shader_modules,
 };
 
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
@@ -48,8 +48,7 @@ impl Pipeline {
             .collect();
         let targets = color_targets(d.targets);
         let raw = gpu.guarded(d.label, || {
-            let vertex = shader_module(gpu, d.label, d.vertex, d.groups);
-            let fragment = shader_module(gpu, d.label, d.fragment, d.groups);
+            let [vertex, fragment] = shader_modules(gpu, d.label, [d.vertex, d.fragment], d.groups);
             gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(d.label),
                 layout: Some(&pipeline_layout(gpu, d.label, &layouts)),
