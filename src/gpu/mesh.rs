@@ -5,7 +5,7 @@ use super::{
     bindings::{layouts, pipeline_layout},
     full_screen::color_targets,
     limits::{check_bindings, check_varyings},
-    pipeline::shader_module,
+    pipeline::shader_modules,
 };
 
 const DEPTH: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
@@ -51,8 +51,7 @@ impl Pipeline {
             .collect();
         let targets = color_targets(d.targets);
         let raw = gpu.guarded(d.label, || {
-            let vertex = shader_module(gpu, d.label, d.vertex, d.groups);
-            let fragment = shader_module(gpu, d.label, d.fragment, d.groups);
+            let [vertex, fragment] = shader_modules(gpu, d.label, [d.vertex, d.fragment], d.groups);
             gpu.device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
                 label: Some(d.label),
                 layout: Some(&pipeline_layout(gpu, d.label, &layouts)),

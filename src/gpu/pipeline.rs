@@ -43,27 +43,33 @@ impl Pipeline {
         let layouts = layouts(gpu, label, groups, wgpu::ShaderStages::FRAGMENT);
         let raw = gpu.guarded(label, || {
             let layout = pipeline_layout(gpu, label, &layouts);
-            let fragment = shader_module(gpu, label, shader, groups);
+            let [fragment] = shader_modules(gpu, label, [shader], groups);
             full_screen::pipeline(gpu, label, &layout, (&fragment, entry_point), targets)
         })?;
         Ok(Pipeline { raw, layouts })
     }
 }
 
-/// Creates a module of the front end, for a pass or a stage of a mesh, in a pipeline with these bind groups.
-pub(super) fn shader_module(
+/// Creates modules of the front end, for a pass or the stages of a mesh, in a pipeline with these bind groups.
+pub(super) fn shader_modules<const N: usize>(
     gpu: &Gpu,
     label: &str,
-    shader: Shader<'_>,
+    shaders: [Shader<'_>; N],
     groups: &[Vec<(u32, Binding)>],
-) -> wgpu::ShaderModule {
-    if gpu.passes_spirv
-        && !gpu.runtime_checks
-        && spirv::differs(gpu, shader)
-        && let Some(made) = spirv::shader_module(gpu, label, shader, groups)
-    {
-        return made;
+) -> [wgpu::ShaderModule; N] {
+    // wgpu knows no outputs of a vertex stage that it has not read, and misses them if it has read the fragment stage:
+    // all stages of a pipeline are passed, or none.
+    if gpu.passes_spirv && !gpu.runtime_checks && shaders.iter().any(|&shader| spirv::differs(gpu, shader)) {
+        let made = shaders.map(|shader| spirv::shader_module(gpu, label, shader, groups));
+        if made.iter().all(Option::is_some) {
+            return made.map(|module| module.expect("checked above"));
+        }
     }
+    shaders.map(|shader| checked_module(gpu, label, shader))
+}
+
+/// Creates a module that wgpu validates.
+fn checked_module(gpu: &Gpu, label: &str, shader: Shader<'_>) -> wgpu::ShaderModule {
     let mut checks = wgpu::ShaderRuntimeChecks::checked();
     // Counting every loop's iterations up to 2^64 costs time in each and does not keep a shader from running for hours.
     checks.force_loop_bounding = gpu.runtime_checks;

@@ -14,15 +14,15 @@ const LAYER: &str = "VK_LAYER_KHRONOS_validation";
 /// one that some drivers get without an initialiser.
 const LOCALS: &str = "
     struct Light { vec3 color; float size[3]; };
-    Light global; float long[400];
+    Light global; float far[400];
     float largest(Light lights[2]) { lights[1].color.x += 1.; return max(lights[0].size[1], lights[1].color.x); }
     void mainImage(out vec4 o, in vec2 p) {
         Light lights[2]; vec2 line[5]; vec3 sizes[4] = iChannelResolution;
         for (int i = 0; i < 5; i++) line[i] = p * float(i);
         lights[int(p.x) & 1].size[int(p.y) % 3] = line[int(p.x) % 5].y;
-        long[int(p.x)] = largest(lights);
+        far[int(p.x)] = largest(lights);
         global = lights[0];
-        o = vec4(global.size[int(p.x) % 3], long[int(p.y)], sizes[int(p.y) & 3].x, 1);
+        o = vec4(global.size[int(p.x) % 3], far[int(p.y)], sizes[int(p.y) & 3].x, 1);
     }";
 
 const INPUTS: &[(&str, &str)] = &[
@@ -79,7 +79,7 @@ fn accepted() -> BTreeSet<String> {
     parts.filter(|(_, rest)| rest.starts_with("everywhere ")).map(|(name, _)| name.to_owned()).collect()
 }
 
-/// Returns the names of the messages in a log: the words that begin like one.
+/// Returns the names of the messages in a log: the words that start like one.
 fn messages(log: &str) -> BTreeSet<String> {
     let words = log.split(|c: char| !(c.is_ascii_alphanumeric() || "-_.:".contains(c)));
     let kinds = ["VUID-", "UNASSIGNED-", "BestPractices-", "SYNC-HAZARD-"];

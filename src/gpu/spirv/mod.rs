@@ -62,7 +62,7 @@ pub(super) fn shader_module(
     // SAFETY: the driver gets the same SPIR-V as from wgpu, without some initialisers and decorations, and with
     // defined extremes:
     // - `words` validates the module like wgpu and writes it with the writer and the options of wgpu's Vulkan backend
-    //   that `pipeline::shader_module` uses; the omitted checks are documented there.
+    //   that `pipeline::checked_module` uses; the omitted checks are documented there.
     // - The resources are those of the pipeline's layout: `binding_map` numbers them like wgpu.
     // - A variable without an initialiser is undefined until it is written. `without_zeros` removes only those of
     //   arrays of `initialized_arrays` scalars, which the front end fills before they are read, at the start of

@@ -160,7 +160,7 @@ fn extremes_of_floats_ignore_nan() {
         numbers.sort_unstable();
         numbers
     };
-    // Sqrt, FMin, FMax, SMax, FClamp twice; then NMin, NMax, NClamp.
-    assert_eq!(numbers(&words), [31, 37, 40, 42, 43, 43]);
-    assert_eq!(numbers(&ignoring_nan(&words)), [31, 42, 79, 80, 81, 81]);
+    // Sqrt, FMin, FMax, SMax, and FClamp, which naga writes for the conversion too; then NMin, NMax, NClamp.
+    assert_eq!(numbers(&words), [31, 37, 40, 42, 43, 43, 43]);
+    assert_eq!(numbers(&ignoring_nan(&words)), [31, 42, 79, 80, 81, 81, 81]);
 }
