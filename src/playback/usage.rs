@@ -129,7 +129,7 @@ mod tests {
             assert!(is_fault(fault as i32), "{fault:#x}");
         }
         // Success, an error, a panic of Rust, Ctrl+C, a missing library, one that does not start, a breakpoint.
-        for other in [0, 1, 101, 0xc000_013a, 0xc000_0135, 0xc000_0142, 0x8000_0003] {
+        for other in [0_u32, 1, 101, 0xc000_013a, 0xc000_0135, 0xc000_0142, 0x8000_0003] {
             assert!(!is_fault(other as i32), "{other:#x}");
         }
     }
