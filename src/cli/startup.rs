@@ -89,7 +89,7 @@ pub(super) fn close_own_console() {
     }
 }
 
-/// Reports why the window could not open or had to close, in a dialog if nobody reads what is printed. Returns the exit
+/// Reports why the window could not open or had to close, in a dialog if there is no stream for errors. Returns the exit
 /// code.
 pub fn window_trouble(why: &str) -> u8 {
     #[cfg(windows)]

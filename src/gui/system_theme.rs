@@ -28,7 +28,7 @@ pub(super) fn watch(wake: Arc<dyn Fn() + Send + Sync>) -> Receiver<egui::Theme> 
 }
 
 #[cfg(any(windows, target_os = "macos"))]
-pub fn watch(_: Arc<dyn Fn() + Send + Sync>) -> Receiver<egui::Theme> {
+pub(super) fn watch(_: Arc<dyn Fn() + Send + Sync>) -> Receiver<egui::Theme> {
     channel().1
 }
 

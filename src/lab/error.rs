@@ -41,7 +41,7 @@ pub enum LabError {
         folder.display(),
         first.display()
     )]
-    Mixed { folder: PathBuf, first: PathBuf, what: &'static str, theirs: String, ours: String },
+    Mixed { folder: Box<Path>, first: Box<Path>, what: &'static str, theirs: String, ours: String },
     #[error("there is no study {name}{}; there are {known}", near.as_ref().map(|n| format!(" (did you mean {n}?)")).unwrap_or_default())]
     NoStudy { name: String, near: Option<String>, known: String },
     #[error("--shard {0}")]

@@ -106,7 +106,7 @@ pub(crate) fn crashed(status: ExitStatus) -> bool {
     status.code().is_some_and(is_fault)
 }
 
-/// Returns whether an exit code of Windows is that of a fault. An exception that nobody handles becomes the exit code: a
+/// Returns whether an exit code of Windows is that of a fault. An unhandled exception becomes the exit code: a
 /// status (`NTSTATUS`) whose two highest bits, its severity, are those of an error.
 #[cfg(any(windows, test))]
 fn is_fault(code: i32) -> bool {

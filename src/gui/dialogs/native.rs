@@ -2,7 +2,7 @@
 
 use super::dialog::{Dialog, Kind, Outcome};
 
-pub fn show(dialog: &Dialog) -> Outcome {
+pub(super) fn show(dialog: &Dialog) -> Outcome {
     let mut native = rfd::FileDialog::new().set_title(dialog.title);
     if let Some(start) = &dialog.start {
         native = native.set_directory(start);

@@ -211,7 +211,7 @@ impl Results {
             for run in &results.runs {
                 let (before, kept) = first.get_or_insert_with(|| (folder, run.clone()));
                 if let Some(Difference { what, theirs, ours }) = run.difference(kept) {
-                    let (folder, first) = (folder.clone(), before.to_owned());
+                    let (folder, first) = (folder.as_path().into(), (*before).into());
                     return Err(LabError::Mixed { folder, first, what, theirs, ours });
                 }
             }

@@ -109,7 +109,7 @@ fn pipes_sockets_and_devices_are_never_opened() {
     assert!(said(read_regular(&pipe, &pipe, SMALL)).contains("a pipe"));
 }
 
-/// A process needs a privilege to create links on Windows.
+/// A process needs a privilege to create links on Windows. Wine reports success and creates none.
 #[cfg(windows)]
 #[test]
 fn a_link_that_replaces_a_file_is_not_followed() {
@@ -118,7 +118,7 @@ fn a_link_that_replaces_a_file_is_not_followed() {
     fs::write(folder.join("secret"), "secret").unwrap();
     assert_eq!(read_regular(&folder.join("secret"), Path::new("secret"), SMALL).unwrap(), b"secret");
     let link = folder.join("link");
-    if std::os::windows::fs::symlink_file("secret", &link).is_ok() {
+    if std::os::windows::fs::symlink_file("secret", &link).is_ok() && link.is_symlink() {
         assert!(said(read_regular(&link, &link, SMALL)).contains("replaced by a link"));
     }
 }
