@@ -81,11 +81,15 @@ fn a_report_has_results_and_no_personal_data() {
     }
     assert!(json["copies"].as_array().unwrap().iter().all(|copy| copy["bytes_per_second"].as_f64() > Some(1e6)));
     assert!(json["transfers"].as_array().unwrap().iter().all(|transfer| transfer["readback_ms"].as_f64() > Some(0.0)));
-    let host =
-        Command::new("hostname").output().map(|output| String::from_utf8_lossy(&output.stdout).trim().to_owned());
-    for name in ["zaphod", "beeblebrox", &home, &host.unwrap_or_default()] {
-        assert!(name.is_empty() || !text.to_lowercase().contains(&name.to_lowercase()), "{name}\n{text}");
-    }
+    assert!(!text.contains(&home), "{text}");
+    let host = Command::new("hostname").output();
+    let host = host.map(|output| String::from_utf8_lossy(&output.stdout).trim().to_lowercase()).unwrap_or_default();
+    let lower = text.to_lowercase();
+    // The name of a machine may be a part of an adapter's: `vm` of llvmpipe.
+    let mut words = lower.split(|c: char| !c.is_alphanumeric() && c != '-');
+    let found =
+        words.find(|word| !word.is_empty() && *word == host || word.contains("zaphod") || word.contains("beeblebrox"));
+    assert_eq!(found, None, "{text}");
     assert!(!text.contains("\"/") && !text.contains(" /") && !text.contains(":\\\\"), "an absolute path\n{text}");
     // An existing file is not replaced.
     let again = report("doctor --report r.json --preset nocturne");

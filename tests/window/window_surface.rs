@@ -1,7 +1,7 @@
 //! End to end: the window's surface when the system takes it away and without vsync, and files from the clipboard.
 
 use crate::{
-    support::window::{Display, Window},
+    support::window::{Display, Window, folder_of},
     window::wait_for_colour,
 };
 use std::{
@@ -97,13 +97,13 @@ fn a_file_manager() {
 #[test]
 fn files_that_were_copied_elsewhere_are_pasted_as_if_they_were_dropped() {
     let Some((display, home)) = Display::with_home() else { return };
-    let (project, picture) = (home.path().join("green.glsl"), home.path().join("ä picture.png"));
-    fs::write(&project, GREEN).unwrap();
+    let project = folder_of(home.path().join("green"), &[("image.glsl", GREEN)]);
+    let picture = home.path().join("ä picture.png");
     image::RgbImage::from_pixel(4, 4, image::Rgb([9, 9, 9])).save(&picture).unwrap();
     let mut window = Window::open(&display, home.path(), &[]);
     let manager = FileManager::copying(&display, &[&project]);
     std::thread::sleep(Duration::from_millis(500));
-    // In the gallery, the copied file is opened.
+    // In the gallery, the copied folder is opened.
     window.keys(&["ctrl+v"]);
     window.wait_until("the project", "opened", |e| e["name"] == "green");
     window.wait_compiled();
@@ -117,9 +117,8 @@ fn files_that_were_copied_elsewhere_are_pasted_as_if_they_were_dropped() {
     window.press();
     window.release();
     window.keys(&["ctrl+v"]);
-    window.wait_until("the channel's line", "dirty", |e| e["dirty"] == true);
+    window.wait_until("the channel", "dirty", |e| e["dirty"] == true);
     window.save();
-    let folder: Vec<_> = fs::read_dir(home.path()).unwrap().map(|entry| entry.unwrap().file_name()).collect();
-    let text = fs::read_to_string(&project).unwrap();
-    assert!(text.contains("picture.png"), "{text}\n{folder:?}");
+    let text = fs::read_to_string(project.join("eddy.toml")).unwrap();
+    assert!(text.contains("picture.png"), "{text}");
 }

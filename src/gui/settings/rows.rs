@@ -164,8 +164,7 @@ settings! {
         row(
             "Wait for the screen",
             Kind::Switch,
-            "Show one frame per refresh of the screen (vsync). Without it a picture is drawn as often as possible: its frame \
-             rate shows what the shader could reach, at more power and with torn pictures",
+            "Show one frame per refresh of the screen (vsync); without it a shader runs as fast as it can",
         );
     /// PNG images are saved with the project in them.
     ProjectInImages(project_in_images: bool = true), "project-in-images" =>

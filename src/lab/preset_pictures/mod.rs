@@ -36,8 +36,9 @@ pub struct Bounds {
     pub max: u8,
 }
 
-/// The bounds of presets whose pictures differ by rounding alone.
-const USUAL: Bounds = Bounds { mean: 0.25, max: 6 };
+/// The bounds of presets whose pictures differ by rounding alone. SwiftShader's differ from lavapipe's by at most 0.12 in
+/// the mean, and by 11 where an edge crosses a square.
+const USUAL: Bounds = Bounds { mean: 0.25, max: 16 };
 
 /// Presets with wider bounds.
 const WIDER: &[(&str, Bounds)] = &[];
@@ -134,7 +135,7 @@ mod tests {
         assert_eq!(difference(&reference), Difference { mean: 0.0, max: 0 });
         assert!(!difference(&imageops::flip_vertical(&reference)).is_within(USUAL));
         let mut one = reference.clone();
-        one.put_pixel(3, 3, Rgb(one.get_pixel(3, 3).0.map(|c| c ^ 0x10)));
+        one.put_pixel(3, 3, Rgb(one.get_pixel(3, 3).0.map(|c| c ^ 0x40)));
         assert!(!difference(&one).is_within(USUAL), "a square of one pass");
         let mut lighter = reference.clone();
         lighter.pixels_mut().for_each(|p| p.0 = p.0.map(|c| if c > 127 { c - 1 } else { c + 1 }));

@@ -8,8 +8,8 @@ use std::env;
 /// The names that must not be in a report.
 pub(super) struct Names(Vec<String>);
 
-/// Shorter names are parts of common words.
-const MIN_LENGTH: usize = 3;
+/// Shorter names are those of units and variables.
+const MIN_LENGTH: usize = 2;
 
 impl Names {
     /// Returns the names of the user and of the machine.
@@ -82,13 +82,13 @@ mod tests {
 
     #[test]
     fn names_and_paths_are_removed() {
-        let names = Names::of(["Ada".into(), "box-7".into(), "me".into()]);
+        let names = Names::of(["Ada".into(), "box-7".into(), "m".into()]);
         for (text, expected) in [
             ("cannot open /home/ada/x.spv: no", "cannot open <path> no"),
             ("the file \"C:\\Users\\Ada\\x.dll\" of ada@box-7", "the file \"<path>\" of <name>@<name>"),
             ("file:///usr/lib/x.so (n/a, 3/4 of it, some)", "<path> (n/a, 3/4 of it, some)"),
             ("NVIDIA GeForce RTX 4090/PCIe/SSE2", "NVIDIA GeForce RTX 4090/PCIe/SSE2"),
-            ("adapter Adapt", "adapter Adapt"),
+            ("adapter Adapt 3 m", "adapter Adapt 3 m"),
             ("~/x \\\\server\\x [/x]", "<path> <path> [<path>]"),
         ] {
             assert_eq!(names.removed(text), expected);
