@@ -30,6 +30,8 @@ const INTERVAL: Duration = Duration::from_millis(500);
 #[derive(Debug, Default)]
 pub(super) struct SettingsPage {
     is_new: bool,
+    /// The height of the dialog in the newest frame.
+    height: f32,
     checked_at: Option<Instant>,
     /// The setting whose number is being dragged, and the number.
     dragged: Option<(&'static str, f64)>,
@@ -127,6 +129,11 @@ impl SettingsPage {
             files(ui, file, out);
         });
         self.is_new = false;
+        // A dialog is centred by the height of the frame before: another zoom would leave its top outside of the window.
+        let height = modal.response.rect.height();
+        if std::mem::replace(&mut self.height, height) != height {
+            ui.ctx().request_repaint();
+        }
         is_open && !modal.should_close()
     }
 

@@ -91,6 +91,11 @@ fn the_settings_page_writes_the_file_and_follows_it() {
     fs::write(&file, "# theirs\ntheme = \"light\"\nzoom = 1.2\n").unwrap();
     window.wait_hidden("settings:trouble");
     window.wait_until("no notice of the fixed error", "layout", |e| e["rects"]["notices"].is_null());
+    // A click on a widget that is about to move would miss it.
+    window.wait_until("the zoom", "layout", |e| e["pixels_per_point"].as_f64().is_some_and(|scale| scale > 1.19));
+    window.wait_until("the page inside of the window", "layout", |e| {
+        e["rects"]["button:close-settings"][1].as_f64().is_some_and(|top| top > 15.0)
+    });
     display.shot("settings-fixed.png");
     window.click_on("setting:zoom:less");
     assert_eq!(wait_for_text(&file, "zoom = 1.1"), "# theirs\ntheme = \"light\"\nzoom = 1.1\n");

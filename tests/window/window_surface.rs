@@ -45,6 +45,9 @@ fn a_suspension_and_faults_of_the_surface_keep_the_picture() {
     // A change of vsync needs no restart.
     window.resize(1000, 1300);
     window.keys(&["ctrl+comma"]);
+    window.wait_until("the page inside of the window", "layout", |e| {
+        e["rects"]["button:close-settings"][1].as_f64().is_some_and(|top| top > 15.0)
+    });
     window.click_on("setting:vsync");
     let settings = home.path().join(".config/eddy/settings.toml");
     let end = Instant::now() + Duration::from_secs(20);
