@@ -172,6 +172,8 @@ impl ApplicationHandler<AppEvent> for App {
     fn new_events(&mut self, _: &ActiveEventLoop, cause: StartCause) {
         if let (Some(running), StartCause::ResumeTimeReached { .. }) = (&mut self.running, cause) {
             running.paint_at = Some(Instant::now());
+            let is_shown = running.hidden && running.map_check.is_mapped_again(&running.window, Instant::now());
+            running.hide(running.hidden && !is_shown);
         }
     }
 
@@ -191,7 +193,7 @@ impl ApplicationHandler<AppEvent> for App {
         let Some(running) = &mut self.running else { return };
         let flow = match running.paint_at {
             // The window is not visible; the window system reports when that changes.
-            _ if running.hidden => ControlFlow::Wait,
+            _ if running.hidden => running.map_check.next().map_or(ControlFlow::Wait, ControlFlow::WaitUntil),
             None => ControlFlow::Wait,
             Some(_) if running.is_due() => {
                 running.paint_at = None;

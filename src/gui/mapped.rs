@@ -7,11 +7,13 @@ use winit::window::Window;
 /// The interval of the checks. Each is a round trip to the X server.
 const EVERY: Duration = Duration::from_millis(500);
 
-/// Checks whether the window is mapped. Once it is mapped again, X11 reports that it is not covered.
+/// Checks whether the window is mapped.
 #[derive(Default)]
 pub(super) struct MapCheck {
     checked_at: Option<Instant>,
     server: Option<Server>,
+    /// The result of the newest check.
+    unmapped: bool,
 }
 
 impl MapCheck {
@@ -24,7 +26,19 @@ impl MapCheck {
         if is_first {
             self.server = Server::of(window);
         }
-        self.server.as_ref().is_some_and(Server::is_unmapped)
+        self.unmapped = self.server.as_ref().is_some_and(Server::is_unmapped);
+        self.unmapped
+    }
+
+    /// Returns when to check again whether a window that was not mapped is mapped now. X11 reports that, too, but the
+    /// report may precede the check: a window manager unmaps and maps a window that begins to fill the screen.
+    pub(super) fn next(&self) -> Option<Instant> {
+        self.checked_at.filter(|_| self.unmapped).map(|at| at + EVERY)
+    }
+
+    /// Returns whether a window that was not mapped at the newest check is mapped now.
+    pub(super) fn is_mapped_again(&mut self, window: &Window, now: Instant) -> bool {
+        self.unmapped && self.next().is_some_and(|at| at <= now) && !self.is_unmapped(window, now)
     }
 }
 
