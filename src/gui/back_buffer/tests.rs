@@ -146,7 +146,7 @@ fn paint_both((scale, size, seed): (f32, [u32; 2], u32)) {
     theme::apply(&ctx);
     let mut random = Random(seed);
     let points = size.map(|pixels| pixels as f32 / scale);
-    for turn in 0..60 {
+    for turn in 0..40 {
         let mut input = RawInput {
             screen_rect: Some(Rect::from_min_size(Pos2::ZERO, vec2(points[0], points[1]))),
             // Animations run at their own rate.
