@@ -2,7 +2,8 @@
 
 use super::{
     DrawFor, Drawn, EngineError, FrameInputs, FrameStats, Miniature, PassTime, Picture, Pixels, Program, Rows, TexelAt,
-    display::Display, running::Running,
+    display::Display,
+    running::{Running, slice_times},
 };
 use super::{
     frame::{Caller, Watch},
@@ -87,6 +88,7 @@ impl Engine {
         inputs: &FrameInputs,
     ) -> Result<Program, EngineError> {
         let mut running = Running::start(&mut self.shared, program, canvas, &mut None)?;
+        running.slices = slice_times(&self.shared, &running.program, canvas, self.running.as_ref());
         let mut caller = Caller { rows: &mut || None, watch: None, capture: None };
         running.draw(&self.shared, None, inputs, Purpose::Frame, &mut caller)?;
         self.shared.gpu.wait()?;

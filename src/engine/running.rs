@@ -11,7 +11,7 @@ use super::{
     uniforms::{self, Uniforms},
 };
 use eddy_gpu::{PassTimer, Texture, depth_buffer};
-use eddy_graph::{Changes, SliceTimes};
+use eddy_graph::{Changes, Draw, SliceTimes};
 use eddy_project::{CustomUniformValues, PassName};
 
 /// A program with its textures, on a canvas of one size.
@@ -40,10 +40,31 @@ pub(super) struct Running {
     pub slices: Option<SliceTimes>,
 }
 
-/// Returns the times of the draws of a program, if its frames are submitted in slices.
-fn slice_times(shared: &Shared, program: &Program) -> Option<SliceTimes> {
+/// Returns the times of the draws of a program, if its frames are submitted in slices. A pass that `before` had, too,
+/// probably takes as long for each texel as there: most edits change little.
+pub(super) fn slice_times(
+    shared: &Shared,
+    program: &Program,
+    canvas: (u32, u32),
+    before: Option<&Running>,
+) -> Option<SliceTimes> {
     let limit = shared.gpu.slices.as_ref()?.limit;
-    Some(SliceTimes::new(limit.as_secs_f64() * 1e3, program.draws.len()))
+    let mut times = SliceTimes::new(limit.as_secs_f64() * 1e3, program.draws.len());
+    let texels = |program: &Program, draw: &Draw, canvas| {
+        let (width, height) = program.plan.targets[draw.targets.start].size.of(canvas);
+        f64::from(width) * f64::from(height)
+    };
+    let known = before.and_then(|before| Some((before, before.slices.as_ref()?)));
+    for (n, (compiled, draw)) in program.planned_draws().enumerate() {
+        let Some((before, known)) = known else { break };
+        let same = before.program.planned_draws().enumerate().find(|(_, (other, _))| other.id == compiled.id);
+        let guess =
+            same.and_then(|(n, (_, draw))| Some(known.likely(n)? / texels(&before.program, draw, before.canvas)));
+        if let Some(of_texel) = guess {
+            times.guess(n, of_texel * texels(program, draw, canvas));
+        }
+    }
+    Some(times)
 }
 
 /// The number of slices of a frame whose draws are timed by the device. A frame of more takes seconds.
@@ -87,6 +108,7 @@ impl Running {
     ) -> Result<Running, EngineError> {
         let present = before.as_ref().map_or(&[][..], |running| &running.targets);
         let new = NewTextures::make(shared, &program, canvas, present)?;
+        let slices = slice_times(shared, &program, canvas, before.as_ref());
         let mut running = Running {
             canvas,
             targets: before.take().map_or_else(Vec::new, |running| running.targets),
@@ -100,7 +122,7 @@ impl Running {
             submissions: 0,
             unfinished: None,
             lasting: program.plan.lasting_draws(),
-            slices: slice_times(shared, &program),
+            slices,
             program,
         };
         running.uniforms.set_custom_uniforms(
@@ -115,8 +137,8 @@ impl Running {
     /// error nothing changes.
     pub(crate) fn resize(&mut self, shared: &mut Shared, canvas: (u32, u32)) -> Result<(), EngineError> {
         let new = NewTextures::make(shared, &self.program, canvas, &self.targets)?;
+        self.slices = slice_times(shared, &self.program, canvas, Some(self));
         self.canvas = canvas;
-        self.slices = slice_times(shared, &self.program);
         self.drop_unfinished();
         self.changes.invalidate();
         self.install_textures(shared, new);

@@ -4,9 +4,9 @@
 //! The times of draws are measured with the frames: a slice is waited for, and its time is compared with the expected
 //! one. This needs no timestamps, and includes what the device does for others meanwhile.
 
-/// The number of texels of a part of a draw whose time is not known: at 1 ns each, an expensive shader for a GPU, a part
-/// takes 0.1 ms; at 100 ns it takes 13 ms.
-const FIRST_TEXELS: u64 = 1 << 17;
+/// The number of texels of a part of a draw whose time is not known: at 240 ns each, where a frame of 1920 x 1080 takes
+/// half a second, a part takes 8 ms.
+const FIRST_TEXELS: u64 = 1 << 15;
 /// Parts of a draw have a multiple of this number of rows: pixels that a device shades together, for derivatives, stay
 /// together.
 const ALIGN: u32 = 8;
@@ -33,6 +33,8 @@ pub struct SliceTimes {
 struct DrawTime {
     /// The milliseconds of a step; `None` before the first.
     expected: Option<f64>,
+    /// The milliseconds that a step probably takes: those of the draw that this one replaces.
+    guess: Option<f64>,
     /// The milliseconds of slices with this draw alone, while its time is not known.
     measured: f64,
     /// The steps that were measured.
@@ -57,11 +59,23 @@ impl SliceTimes {
         self.draws[draw].expected
     }
 
+    /// Sets the milliseconds that a step of a draw probably takes, before its first one.
+    pub fn guess(&mut self, draw: usize, millis: f64) {
+        self.draws[draw].guess = Some(millis);
+    }
+
+    /// Returns the expected milliseconds of one step of a draw, or else what was guessed.
+    pub fn likely(&self, draw: usize) -> Option<f64> {
+        self.draws[draw].expected.or(self.draws[draw].guess)
+    }
+
     /// Returns the heights of the parts of a draw of this size, all but the last the same.
     pub(super) fn parts(&self, draw: usize, (width, height): (u32, u32)) -> impl Iterator<Item = u32> + use<> {
+        let fewest = (u64::from(width) * u64::from(height)).div_ceil(FIRST_TEXELS) as f64;
+        let count = self.likely(draw).map(|millis| (millis / self.limit).ceil());
         let count = match self.expected(draw) {
-            Some(millis) => (millis / self.limit).ceil(),
-            None => (u64::from(width) * u64::from(height)).div_ceil(FIRST_TEXELS) as f64,
+            Some(_) => count.unwrap_or(fewest),
+            None => count.unwrap_or(fewest).max(fewest),
         };
         let rows = match count.clamp(1.0, f64::from(u32::MAX)) as u32 {
             1 => height,
@@ -128,7 +142,7 @@ mod tests {
         assert_eq!(heights(&times, (24, 12)), [12]);
         let size = (1920, 1080);
         assert_eq!(heights(&times, size).iter().sum::<u32>(), 1080);
-        assert_eq!(frame(&mut times, size, 100.0).0, 17, "at most 131,072 texels each");
+        assert_eq!(frame(&mut times, size, 100.0).0, 68, "at most 32,768 texels each");
         let (slices, longest) = frame(&mut times, size, 100.0);
         assert!(slices == 14 && longest <= 8.0, "{slices} slices of up to {longest} ms");
         // A change of cost is noticed with the first frame that has it, and forgotten slowly.
@@ -140,6 +154,21 @@ mod tests {
             frame(&mut times, size, 1.0);
         }
         assert_eq!(frame(&mut times, size, 1.0), (1, 1.0));
+    }
+
+    #[test]
+    fn a_first_frame_is_split_by_the_time_of_the_one_before() {
+        let size = (272, 152);
+        let mut times = SliceTimes::new(8.0, 1);
+        assert_eq!(heights(&times, size), [72, 72, 8]);
+        times.guess(0, 120.0);
+        assert_eq!(heights(&times, size).len(), 19, "at most 8 ms each, in steps of 8 rows");
+        // Many texels are not trusted to be as cheap.
+        times.guess(0, 1.0);
+        assert_eq!(heights(&times, (1920, 1080)).len(), 68);
+        // What is measured replaces it.
+        frame(&mut times, size, 6.0);
+        assert_eq!((heights(&times, size), times.likely(0)), (vec![152], times.expected(0)));
     }
 
     #[test]
