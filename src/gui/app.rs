@@ -4,7 +4,9 @@
 //! when an event, the session or egui requests one.
 
 use super::{
-    GuiError, Opened, Options, clipboard,
+    GuiError, Opened, Options,
+    app_event::AppEvent,
+    clipboard,
     device_recovery::{self, DeviceLosses},
     fonts,
     frame::{self, Frame},
@@ -15,7 +17,7 @@ use super::{
     settings::{Overrides, RestoredSizes, SettingsFile, WindowFile, WindowPlace, WindowState},
     shell::Shell,
     surface::{Presented, Surface},
-    system_theme, theme, window_opening,
+    system_theme, termination, theme, window_opening,
 };
 use crate::{
     gpu::{ADAPTER_VARIABLE, AdapterChoice, Gpu, GpuError, HlslCompiler},
@@ -39,23 +41,6 @@ use winit::{
     window::{Fullscreen, Window, WindowId},
 };
 
-/// Sent to the event loop from other threads.
-#[derive(Debug)]
-pub(super) enum AppEvent {
-    /// There is something new to show.
-    Wake,
-    /// A frame has been painted, and all events that arrived meanwhile have been handled.
-    Painted,
-    /// An event of a screen reader or another assistive program.
-    Assistive(accesskit_winit::Event),
-}
-
-impl From<accesskit_winit::Event> for AppEvent {
-    fn from(event: accesskit_winit::Event) -> Self {
-        Self::Assistive(event)
-    }
-}
-
 /// Opens the window, and returns when it is closed.
 pub fn run(options: Options) -> Result<(), GuiError> {
     run_with(options, |_| ())
@@ -64,6 +49,7 @@ pub fn run(options: Options) -> Result<(), GuiError> {
 /// The same as [`run`]. Once the window is open, calls `opened` with its first graphics device.
 pub fn run_with(options: Options, opened: impl FnOnce(&Gpu) + 'static) -> Result<(), GuiError> {
     let event_loop = EventLoop::<AppEvent>::with_user_event().build().map_err(window_opening::no_display)?;
+    termination::watch(event_loop.create_proxy());
     let opened: Option<Opened> = Some(Box::new(opened));
     let mut app = App { proxy: event_loop.create_proxy(), options, opened, running: None, failed: None };
     event_loop.run_app(&mut app).map_err(window_opening::no_display)?;
@@ -153,7 +139,7 @@ impl ApplicationHandler<AppEvent> for App {
         }
     }
 
-    fn user_event(&mut self, _: &ActiveEventLoop, event: AppEvent) {
+    fn user_event(&mut self, event_loop: &ActiveEventLoop, event: AppEvent) {
         let Some(running) = &mut self.running else { return };
         match event {
             // The picture or something else is ready: paint at the screen's refresh rate.
@@ -166,6 +152,12 @@ impl ApplicationHandler<AppEvent> for App {
             AppEvent::Painted if running.is_due() => {}
             AppEvent::Painted => running.session.painted(Instant::now()),
             AppEvent::Assistive(event) => running.assist(event.window_event),
+            AppEvent::Terminate => {
+                running.session.apply(FileCommand::Terminate);
+                if matches!(running.take_requests(), Next::Exit) {
+                    event_loop.exit();
+                }
+            }
         }
     }
 

@@ -56,13 +56,13 @@ pub(super) fn light(ui: &mut Ui, session: &Session, room: f32, out: &mut UiOutpu
     let (texts, color, tip): (&[&str], _, _) = match state {
         CameraState::Off => {
             let tip = "A channel reads the webcam; it is black until you turn the camera on";
-            (&["Use the camera", "Camera", "Cam"], p.text, tip)
+            (&["Use camera", "Camera", "Cam"], p.text, tip)
         }
         CameraState::Starting => (&["● Camera…", "●"], p.warning, "The camera starts; click to stop it"),
         CameraState::On => (&["● Camera on", "● Camera", "●"], p.error, "Click to turn the camera off"),
     };
     let button = indicator(ui, texts, color, (WIDTH, room));
-    let name = if state == CameraState::Off { "Use the camera" } else { "Turn the camera off" };
+    let name = if state == CameraState::Off { "Use camera" } else { "Turn the camera off" };
     accessible::name(&button, egui::Role::Button, name);
     let place = match state {
         CameraState::Off => "button:camera",
@@ -81,7 +81,7 @@ pub(super) fn choose(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let kind = InputKind::Webcam;
     let is_off = session.device_state(kind) == CameraState::Off;
     ui.horizontal_wrapped(|ui| {
-        let name = if is_off { "Use the camera" } else { "Turn the camera off" };
+        let name = if is_off { "Use camera" } else { "Turn the camera off" };
         out.on_click("choose:camera", &ui.button(name), Command::Camera(CameraCommand::UseDevice { kind, on: is_off }));
         let (cameras, now) = session.cameras();
         for camera in cameras.iter().filter(|_| cameras.len() > 1) {

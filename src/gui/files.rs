@@ -225,14 +225,16 @@ const SHOWN: [&str; 20] = [
 fn help(pick: &Pick) -> &'static str {
     match pick {
         Pick::OpenFolder | Pick::OpenFile => {
-            "A folder with eddy.toml, a folder of .glsl files, one .glsl file, or a Shadertoy .json"
+            "A folder with eddy.toml, a folder of .glsl files, a .glsl file, ISF, an image, a video, a model, or a Shadertoy .json"
         }
         Pick::SaveAs(_) => "A folder for the project; it is created if missing",
         Pick::Recording => "A .replay file that Record input has saved",
         Pick::Json(_) => "A .json file; Eddy asks before replacing one",
         Pick::Page(_) => "A .html file; Eddy asks before replacing one",
         Pick::LabFolder => "A folder for results.jsonl; a stopped run resumes there",
-        Pick::Reference => "A folder with eddy.toml, a folder of .glsl files, one .glsl file, or a Shadertoy .json",
+        Pick::Reference => {
+            "A folder with eddy.toml, a folder of .glsl files, a .glsl file, ISF, an image, a video, a model, or a Shadertoy .json"
+        }
         Pick::LabReport => "An empty or new folder for tables, plots and index.html",
         Pick::CodeFont => "A .ttf or .otf file",
         Pick::LibraryFolder => "The folder that contains a library, such as the folder lygia",

@@ -57,7 +57,7 @@ fn words(halt: &Halt) -> (String, String, &'static str) {
     match halt {
         Halt::Drawing { limit, .. } => (
             format!("This frame takes longer than {}", time(*limit)),
-            "The GPU is still drawing it and the picture waits. Your text is unchanged: edit it, or".into(),
+            "The GPU is still busy with this frame. Edit the code, or choose:".into(),
             "Continue",
         ),
         Halt::Drawn { limit, took } => (
@@ -72,9 +72,7 @@ fn words(halt: &Halt) -> (String, String, &'static str) {
         ),
         Halt::Opened { after_trouble: true } => (
             "Opened paused".into(),
-            "The last time this project was open, its code froze the picture or crashed Eddy. Nothing has been \
-             drawn yet."
-                .into(),
+            "Eddy closed unexpectedly while this project was drawing, so it starts paused.".into(),
             "Play",
         ),
         Halt::Opened { after_trouble: false } => ("Opened paused".into(), "Nothing has been drawn yet.".into(), "Play"),

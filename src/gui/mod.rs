@@ -7,6 +7,7 @@
 mod accessible;
 mod actions;
 mod app;
+mod app_event;
 mod back_buffer;
 mod browser;
 mod buffers;
@@ -66,6 +67,7 @@ mod surface;
 mod surface_faults;
 mod system_theme;
 mod tabs;
+mod termination;
 mod theme;
 mod thumbnails;
 mod timeline;

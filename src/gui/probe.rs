@@ -86,7 +86,7 @@ fn visit(ui: &mut Ui, place: &ProbePlace, out: &mut UiOutput) {
 fn look(ui: &mut Ui, view: &ProbeView<'_>, value: &ProbedValue, out: &mut UiOutput) {
     let mut look = view.look;
     ui.horizontal_wrapped(|ui| {
-        let paints = [(Paint::Range, "Range"), (Paint::Sign, "Sign"), (Paint::FalseColour, "False colour")];
+        let paints = [(Paint::Range, "Range"), (Paint::Sign, "Signed"), (Paint::FalseColour, "False colour")];
         for (paint, name) in paints {
             let response = ui.selectable_label(look.paint == paint, name);
             if out.clicked(&format!("probe:{}", name.to_lowercase().replace(' ', "-")), &response) {

@@ -154,7 +154,7 @@ fn export(ui: &mut Ui, file: &Path, exists: bool, lost: &[String], room: f32, ou
         let is_page = file.extension().is_some_and(|e| !e.eq_ignore_ascii_case("json"));
         ui.label(match is_page {
             true => "The page does not show everything as this window does:",
-            false => "Shadertoy does not have everything that this project uses:",
+            false => "Some things will not work on Shadertoy:",
         });
         // The height of the sentences, limited by the available room.
         let width = ui.available_width() - 16.0;
@@ -173,7 +173,7 @@ fn export(ui: &mut Ui, file: &Path, exists: bool, lost: &[String], room: f32, ou
         });
     }
     if exists {
-        ui.label(format!("The file is already there. What is replaced is kept for {} days.", session::KEPT_DAYS));
+        ui.label(format!("The file already exists. The replaced one is kept for {} days.", session::KEPT_DAYS));
         answers_with_default(ui, &[("Replace", Answer::Export), ("Cancel", Answer::Cancel)], 1, out);
     } else {
         answers(ui, &[("Export", Answer::Export), ("Cancel", Answer::Cancel)], out);

@@ -2,11 +2,12 @@
 //! is visible, as in full screen, they are over the picture and let the mouse through.
 
 use super::{
+    actions::Action,
     icons::{self, Icon},
     theme,
     ui_output::UiOutput,
 };
-use crate::session::{EditCommand, Level, Notice, NoticeCommand, Session};
+use crate::session::{About, EditCommand, Level, Notice, NoticeCommand, Session};
 use egui::{
     Align, Align2, Area, Color32, Context, FontId, Frame, Id, Label, Layout, Margin, Order, Panel, Rect, ScrollArea,
     Sense, Stroke, TextFormat, Ui, pos2, text::LayoutJob, vec2,
@@ -188,6 +189,10 @@ fn row(ui: &mut Ui, session: &Session, group: &Group<'_>, out: &mut UiOutput) {
                     out.ask(EditCommand::UndoPassEdit);
                     group.dismiss(out);
                 }
+            }
+            if notice.about == About::Gone {
+                let save = ui.button("Save as…");
+                out.on_click(&format!("toast:{}:save-as", notice.id), &save, Action::SaveAs);
             }
             if let Some(path) = &notice.path {
                 let copy = ui.button("Copy path").on_hover_text(path.display().to_string());

@@ -76,9 +76,11 @@ impl Project {
         Ok(())
     }
 
-    /// Sets a custom uniform; the default is not stored, so that it follows the text.
+    /// Sets a custom uniform, with numbers in their [shortest](CustomUniformValue::shortest) form. The default is not
+    /// stored, so that it follows the text.
     pub fn turn_custom_uniform(&mut self, custom_uniform: &CustomUniform, value: CustomUniformValue) {
-        if value == custom_uniform.default {
+        let value = value.shortest();
+        if value == custom_uniform.default.clone().shortest() {
             self.custom_uniform_values.remove(&custom_uniform.name);
         } else {
             self.custom_uniform_values.insert(custom_uniform.name.clone(), value);

@@ -14,6 +14,7 @@ use super::{
 };
 use eddy_playback::capture;
 use eddy_project::{self as project, Bindings, Channel, Pass, PassName, SLOTS, Tab, include_names};
+use std::time::Instant;
 
 impl Session {
     /// Executes a command of the user. Never fails: errors become notices.
@@ -114,7 +115,7 @@ impl OpenProject {
                     project.custom_uniform_values.remove(&custom_uniform.name);
                 }
                 if self.project().custom_uniform_values != before {
-                    self.pass_history.push_uniforms(before, None);
+                    self.pass_history.push_uniforms(before, None, Instant::now());
                 }
                 self.custom_uniforms_changed();
             }

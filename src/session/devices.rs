@@ -1,7 +1,7 @@
 //! Cameras and microphones: which kinds of device the user has allowed, and the active camera.
 //!
-//! A device is used only after the user has turned it on for the open project in this run. A project that reads one
-//! shows black until then, and another project asks again.
+//! A device is used only after the user has turned it on for the open project in this run, and only while a channel reads
+//! it. A project that reads one shows black until then, and another project asks again.
 
 use super::{
     open_project::OpenProject,
@@ -125,8 +125,10 @@ impl OpenProject {
         self.use_device(InputKind::Webcam, true);
     }
 
+    /// Opens the camera if the user has allowed it and a channel reads it.
     fn open_camera(&mut self) {
-        if self.devices.camera.is_some() || !self.devices.consent.allows(InputKind::Webcam) {
+        let is_allowed = self.devices.consent.allows(InputKind::Webcam);
+        if self.devices.camera.is_some() || !is_allowed || !self.reads_device(InputKind::Webcam) {
             return;
         }
         let wake = self.host.wake.clone();
@@ -135,8 +137,17 @@ impl OpenProject {
         (self.devices.is_shown, self.devices.is_end_told) = (false, false);
     }
 
-    /// Shows a camera that has started, and reports one that has stopped.
+    /// Turns the camera off with the last channel that reads it, and on again with the next one: the user has allowed
+    /// it for this project. Shows a camera that has started, and reports one that has stopped.
     pub(super) fn follow_devices(&mut self) {
+        if !self.reads_device(InputKind::Webcam) {
+            if self.devices.turn_camera_off() {
+                self.dismiss_notices(About::Device);
+                self.host.changed = true;
+            }
+            return;
+        }
+        self.open_camera();
         let Some(camera) = &self.devices.camera else { return };
         if camera.newest().is_some() && !std::mem::replace(&mut self.devices.is_shown, true) {
             self.devices.found = camera.found();

@@ -23,6 +23,7 @@ impl Session {
     pub(super) fn apply_to_files(&mut self, command: FileCommand) {
         match command {
             FileCommand::Answer(answer) => self.answer(answer),
+            FileCommand::Terminate => self.terminate(),
             // A front end shows nothing else while a question is open; a script may still send commands.
             _ if self.question().is_some() => {
                 self.open.notice_about(About::Question, Level::Warning, "answer the open question first");
@@ -82,6 +83,15 @@ impl Session {
         }
     }
 
+    /// Quits without a question: nobody may be there to answer it.
+    fn terminate(&mut self) {
+        self.open.end_recording();
+        self.cancel_film();
+        self.keep_time();
+        self.services.recovery.keep_unsaved(&mut self.open);
+        self.open.host.dialog.requests.push_back(Request::Exit);
+    }
+
     fn open(&mut self, spec: &str) {
         self.open.dismiss_notices(About::Opening);
         match project::load(spec) {
@@ -103,6 +113,11 @@ impl Session {
                 return false;
             }
         };
+        if !self.open.find_home() {
+            self.open.request_save_as();
+            return false;
+        }
+        let home = self.open.disk.home_path().unwrap_or(home);
         if !self.open.may_overwrite() {
             return false;
         }

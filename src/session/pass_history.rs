@@ -8,8 +8,10 @@ use std::{
 
 /// The number of steps that are kept; each is a project whose texts are shared with the next.
 const STEPS: usize = 200;
-/// Dragging a number makes one step, however many values it passes through.
-const PAUSE: Duration = Duration::from_millis(800);
+/// Movements of one control with shorter pauses are one gesture, and so one step.
+const PAUSE: Duration = Duration::from_millis(500);
+/// Controls that move within this time of each other are moved together, as the axes of a pad are: one gesture.
+const TOGETHER: Duration = Duration::from_millis(100);
 
 /// The undo and redo steps.
 #[derive(Debug, Default)]
@@ -49,7 +51,8 @@ pub(super) struct Step {
     /// A pass whose name differs on the other side: its name there, and its name here.
     pub renamed: Option<(PassName, PassName)>,
     pub edit: Option<PassEdit>,
-    pub at: Instant,
+    /// The time of its newest change; `None` once it was undone or redone: its gesture is over.
+    pub at: Option<Instant>,
 }
 
 /// A possible step, as a front end shows it.
@@ -73,28 +76,27 @@ impl PassHistory {
         before: Project,
         renamed: Option<(PassName, PassName)>,
         edit: Option<PassEdit>,
+        at: Instant,
     ) {
-        let at = Instant::now();
         self.redo.clear();
         if let (Some(last), Some(edit)) = (self.undo.last_mut(), &edit)
             && last.edit.as_ref().is_some_and(|before| before.is_same_kind(edit))
-            && at.saturating_duration_since(last.at) < PAUSE
+            && last.is_within(PAUSE, at)
         {
-            last.at = at;
+            last.at = Some(at);
             return;
         }
         self.add(title, UndoState::Passes(Box::new(before)), renamed, edit, at);
     }
 
-    /// Records that a uniform was changed, or several at once. Dragging makes one step.
-    pub(crate) fn push_uniforms(&mut self, before: CustomUniformValues, name: Option<&str>) {
-        let at = Instant::now();
+    /// Records that a uniform was changed by hand, or several at once. Dragging makes one step.
+    pub(crate) fn push_uniforms(&mut self, before: CustomUniformValues, name: Option<&str>, at: Instant) {
         self.redo.clear();
         if let Some(last) = self.undo.last_mut()
             && matches!(&last.side, UndoState::Uniforms(_, UniformChange::One(turned)) if Some(turned.as_str()) == name)
-            && at.saturating_duration_since(last.at) < PAUSE
+            && last.is_within(PAUSE, at)
         {
-            last.at = at;
+            last.at = Some(at);
             return;
         }
         let title = name.map_or_else(|| "reset all uniforms".to_owned(), turning);
@@ -102,17 +104,19 @@ impl PassHistory {
         self.add(title, UndoState::Uniforms(before, turned), None, None, at);
     }
 
-    /// Records that controls of devices changed uniforms. Movements without a pause make one step, however many
-    /// controls move.
-    pub(crate) fn push_controls(&mut self, before: CustomUniformValues, names: BTreeSet<String>) {
-        let at = Instant::now();
+    /// Records that controls of devices changed uniforms. A gesture makes one step: the movements of one control, or of
+    /// several at the same time.
+    pub(crate) fn push_controls(&mut self, before: CustomUniformValues, names: BTreeSet<String>, at: Instant) {
         self.redo.clear();
         if let Some(last) = self.undo.last_mut()
-            && let UndoState::Uniforms(_, UniformChange::ByControls(turned)) = &mut last.side
-            && at.saturating_duration_since(last.at) < PAUSE
+            && let UndoState::Uniforms(_, UniformChange::ByControls(turned)) = &last.side
+            && last.is_within(if names.is_subset(turned) { PAUSE } else { TOGETHER }, at)
         {
-            turned.extend(names);
-            (last.title, last.at) = (turning_all(turned), at);
+            let all: BTreeSet<String> = turned.union(&names).cloned().collect();
+            (last.title, last.at) = (turning_all(&all), Some(at));
+            if let UndoState::Uniforms(_, change) = &mut last.side {
+                *change = UniformChange::ByControls(all);
+            }
             return;
         }
         self.add(turning_all(&names), UndoState::Uniforms(before, UniformChange::ByControls(names)), None, None, at);
@@ -155,7 +159,7 @@ impl PassHistory {
         at: Instant,
     ) {
         self.serial += 1;
-        self.undo.push(Step { serial: self.serial, title, side, renamed, edit, at });
+        self.undo.push(Step { serial: self.serial, title, side, renamed, edit, at: Some(at) });
         if self.undo.len() > STEPS {
             self.undo.remove(0);
         }
@@ -175,7 +179,51 @@ fn turning_all(names: &BTreeSet<String>) -> String {
 }
 
 impl Step {
+    /// Returns whether its newest change is less than `pause` before `at`.
+    fn is_within(&self, pause: Duration, at: Instant) -> bool {
+        self.at.is_some_and(|last| at.saturating_duration_since(last) < pause)
+    }
+
     pub(crate) fn shown(&self) -> PassStep<'_> {
         PassStep { serial: self.serial, title: &self.title }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use eddy_project::CustomUniformValue;
+
+    fn values(speed: f64) -> CustomUniformValues {
+        CustomUniformValues::from([("speed".to_owned(), CustomUniformValue::Float(speed))])
+    }
+
+    #[test]
+    fn a_gesture_is_one_step() {
+        let start = Instant::now();
+        let at = |millis: u64| start + Duration::from_millis(millis);
+        let mut history = PassHistory::default();
+        let mut moved = |names: &[&str], millis: u64| {
+            let names = names.iter().map(|&name| name.to_owned()).collect();
+            history.push_controls(values(millis as f64), names, at(millis));
+            history.undo.iter().map(|step| step.title.clone()).collect::<Vec<_>>().join("; ")
+        };
+        assert_eq!(moved(&["decay"], 0), "change decay");
+        assert_eq!(moved(&["decay"], 450), "change decay");
+        assert_eq!(moved(&["decay"], 950), "change decay; change decay");
+        assert_eq!(moved(&["speed"], 1350), "change decay; change decay; change speed", "another control");
+        assert_eq!(moved(&["decay"], 1400), "change decay; change decay; change decay and speed", "both at once");
+        assert_eq!(moved(&["speed"], 1800), "change decay; change decay; change decay and speed");
+        // A mouse that goes on where a knob ended makes a step of its own.
+        history.push_uniforms(values(0.0), Some("speed"), at(1810));
+        history.push_uniforms(values(0.0), Some("speed"), at(2300));
+        assert_eq!(history.undo.len(), 4);
+        let before: Vec<f64> = history.undo.iter().map(|step| before(step)).collect();
+        assert_eq!(before, [0.0, 950.0, 1350.0, 0.0], "the values before the first movement of each");
+    }
+
+    fn before(step: &Step) -> f64 {
+        let UndoState::Uniforms(values, _) = &step.side else { panic!("{step:?}") };
+        values["speed"].components()[0]
     }
 }

@@ -44,7 +44,7 @@ impl OpenProject {
             PassEdit::Remove(tab) if !is_untouched => Some(format!("{} was removed", tab.title())),
             _ => None,
         };
-        self.pass_history.push(edit.title(), before, done.renamed, Some(edit));
+        self.pass_history.push(edit.title(), before, done.renamed, Some(edit), Instant::now());
         if let Some(said) = said {
             self.notice_with_undo(said);
         }
@@ -55,14 +55,14 @@ impl OpenProject {
     pub(super) fn add_tab(&mut self, tab: &Tab) {
         let before = self.project().clone();
         if template::add(self.documents.current_mut(), tab) {
-            self.pass_history.push(format!("add {}", tab.title()), before, None, None);
+            self.pass_history.push(format!("add {}", tab.title()), before, None, None, Instant::now());
             self.passes_changed();
         }
     }
 
     /// Records an edit whose undo restores `before`.
     pub(super) fn note_pass_edit(&mut self, title: String, before: Project) {
-        self.pass_history.push(title, before, None, None);
+        self.pass_history.push(title, before, None, None, Instant::now());
     }
 
     /// Shows a notice about a change that the newest undo step reverts.
@@ -97,14 +97,7 @@ impl OpenProject {
                 self.custom_uniforms_changed();
                 self.host.changed = true;
                 let (serial, title, renamed) = (step.serial, step.title, None);
-                return Step {
-                    serial,
-                    title,
-                    side: UndoState::Uniforms(here, name),
-                    renamed,
-                    edit: None,
-                    at: Instant::now(),
-                };
+                return Step { serial, title, side: UndoState::Uniforms(here, name), renamed, edit: None, at: None };
             }
         };
         let here = self.project().clone();
@@ -117,7 +110,7 @@ impl OpenProject {
         self.passes_changed();
         let renamed = there.map(|(there, here)| (here, there));
         let (serial, title) = (step.serial, step.title);
-        Step { serial, title, side: UndoState::Passes(Box::new(here)), renamed, edit: None, at: Instant::now() }
+        Step { serial, title, side: UndoState::Passes(Box::new(here)), renamed, edit: None, at: None }
     }
 
     /// Updates everything that refers to a pass by its name.

@@ -92,9 +92,10 @@ impl Session {
         self.open.playback.start(false);
         if is_whole {
             self.open.restore_frames(frames);
-            self.open.notice(Level::Info, format!("opened from the image, paused at frame {frame}"));
+            self.open.notice(Level::Info, format!("Opened from the image at frame {frame} (paused)"));
         } else {
-            let text = format!("opened from the image, paused at frame 0: the way to frame {frame} is not in it");
+            let text =
+                format!("Opened from the image at frame 0 (paused): the inputs up to frame {frame} are not in it");
             self.open.notice(Level::Info, text);
         }
     }

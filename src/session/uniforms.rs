@@ -4,6 +4,7 @@
 
 use super::{drawing::Change, open_project::OpenProject};
 use eddy_project::{CustomUniform, CustomUniformValue, CustomUniformValues, Project};
+use std::time::Instant;
 
 /// Old and new names, in the order of the renames.
 type RenamedUniforms = Vec<(String, String)>;
@@ -27,9 +28,10 @@ fn newest_name<'n>(renamed: &'n RenamedUniforms, name: &'n str) -> &'n str {
 }
 
 impl OpenProject {
-    /// Returns the value of one of the author's own uniforms.
+    /// Returns the value of one of the author's own uniforms with which the picture is drawn: that of a recording while
+    /// it is shown.
     pub(crate) fn custom_uniform_value(&self, custom_uniform: &CustomUniform) -> CustomUniformValue {
-        let values = &self.project().custom_uniform_values;
+        let values = self.playback.shown_values().unwrap_or(&self.project().custom_uniform_values);
         match newest_name(&self.uniforms.renamed, &custom_uniform.name) {
             name if name == custom_uniform.name => custom_uniform.value(values),
             name => CustomUniform { name: name.to_owned(), ..custom_uniform.clone() }.value(values),
@@ -105,7 +107,7 @@ impl OpenProject {
             }
         }
         if self.project().custom_uniform_values != before {
-            self.pass_history.push_uniforms(before, Some(name));
+            self.pass_history.push_uniforms(before, Some(name), Instant::now());
         }
         self.custom_uniforms_changed();
     }

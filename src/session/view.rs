@@ -46,6 +46,8 @@ pub enum About {
     Scale,
     /// Files that do not form a complete project.
     Files,
+    /// A project whose file or folder was moved or deleted: a front end offers to save it elsewhere.
+    Gone,
     /// A missing file.
     MissingFile,
     /// Folders that are watched.

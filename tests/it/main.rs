@@ -71,6 +71,7 @@ mod lsp;
 mod lsp_dialects;
 mod lsp_projects;
 mod lsp_threads;
+mod moved_projects;
 mod music;
 mod next_project;
 mod packages;

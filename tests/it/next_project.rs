@@ -4,7 +4,7 @@ use crate::support::{self, stage::*};
 use eddy::{
     gpu::Gpu,
     playback::comparing::Baseline,
-    project::{PassName, Tab},
+    project::{CustomUniformValue, PassName, Tab},
     session::{
         Answer, CanvasCommand, CaptureCommand, Command, EditCommand, FileCommand, InputCommand, Level, NoticeCommand,
         Question, Session, SessionOptions, TimeRange, ToolCommand, TransportCommand, ViewCommand, buffers::BufferWatch,
@@ -362,6 +362,38 @@ fn a_project_with_state_reopens_at_its_paused_frame_or_starts_at_0() {
     close(paused);
     runs(&state).iter().for_each(|file| fs::write(file, "{\"eddy_recording\":1}\nno frame\n").unwrap());
     assert_eq!(place(&open_and_wait(&gpu, &state, &project)), (0.0, 0, false));
+}
+
+#[test]
+fn a_paused_project_reopens_with_the_picture_of_its_saved_values() {
+    let Some(gpu) = support::gpu() else { return };
+    let dir = tempfile::tempdir().unwrap();
+    let state = dir.path().join("state");
+    let image = "#iUniform float level = 0.25\nvoid mainImage(out vec4 o, in vec2 p) {\n    \
+                 o = texelFetch(iChannel0, ivec2(p), 0) + vec4(level, 0.0, 0.0, 0.0);\n}\n";
+    let manifest =
+        "[passes.image]\nchannels.0 = { buffer = \"A\" }\n[passes.buffer_a]\nchannels.0 = { buffer = \"A\" }\n";
+    let buffer = "void mainImage(out vec4 o, in vec2 p) { o = texelFetch(iChannel0, ivec2(p), 0) + 1.0 / 255.0; }\n";
+    let files = [("image.glsl", image), ("buffer_a.glsl", buffer), ("eddy.toml", manifest)];
+    let project = write(&dir.path().join("p"), &files);
+    let mut stage = stage_with_state(&gpu, &state);
+    stage.session.apply(FileCommand::Open(project.clone()));
+    stage.compile(Command::Transport(TransportCommand::Pause));
+    stage.session.apply(TransportCommand::Seek(0.5));
+    stage.until("the time", |s| !s.transport().is_seeking);
+    stage.tick();
+    let (left, saved) = (place(&stage), texels(&mut stage));
+    let value = Some(CustomUniformValue::Float(0.75));
+    stage.session.apply(EditCommand::SetCustomUniform { name: "level".into(), value });
+    stage.settle();
+    assert!(texels(&mut stage) != saved);
+    stage.session.apply(FileCommand::Close);
+    stage.session.apply(FileCommand::Answer(Answer::Discard));
+    assert!(stage.session.take_request().is_some());
+    let mut again = open_and_wait(&gpu, &state, &project);
+    again.settle();
+    assert_eq!(place(&again), left);
+    assert!(texels(&mut again) == saved, "the picture of the slider's value that was discarded");
 }
 
 #[test]

@@ -36,7 +36,7 @@ fn a_picture_with_state_is_redrawn_from_its_inputs() {
     assert_eq!(after.session.shown_pass(), &PassName::buffer("A"));
     assert!(texels(&mut after) == wanted);
     assert!(!after.session.transport().playing && !after.session.is_dirty());
-    let text = "opened from the image, paused at frame 150";
+    let text = "Opened from the image at frame 150 (paused)";
     assert!(after.notices(Level::Info).contains(&text), "{:?}", after.session.notices());
     // The following frames are those of the original run.
     steps(&mut before, 150..160);

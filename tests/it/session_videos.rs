@@ -4,7 +4,7 @@
 use crate::support::{self, ffmpeg::has_ffmpeg, stage::*};
 use eddy::{
     playback::comparing::Baseline,
-    project::InputKind,
+    project::{InputKind, PassName},
     session::{
         CameraCommand, CameraState, EditCommand, FileCommand, Level, SessionOptions, Status, ToolCommand,
         TransportCommand,
@@ -106,6 +106,13 @@ fn a_camera_is_on_only_by_consent_for_one_project() {
     assert_eq!(stage.red(), 0);
     stage.session.apply(CameraCommand::UseDevice { kind: webcam, on: true });
     stage.until("the camera to be on", |s| s.device_state(webcam) == CameraState::On);
+    // It runs only while a channel reads it.
+    let set = |channel| EditCommand::SetChannel { pass: PassName::image(), index: 0, channel };
+    stage.session.apply(set(None));
+    stage.for_a_while();
+    assert_eq!(stage.session.device_state(webcam), CameraState::Off);
+    stage.session.apply(EditCommand::UndoPassEdit);
+    stage.until("the camera to be on again", |s| s.device_state(webcam) == CameraState::On);
     // Opening a project, even the same one, requires consent again.
     stage.session.apply(FileCommand::Open(folder));
     stage.until("another project", |s| s.device_state(webcam) == CameraState::Off);

@@ -398,6 +398,17 @@ fn a_microphone_is_opened_only_by_consent_and_its_frames_are_recorded() {
         room.run(0.05);
     }
     assert_eq!(seen(&mut room), shown, "the same picture without the microphone");
+    // It is open only while a channel reads it.
+    let is_on = |room: &Room| room.stage.session.microphone_view().is_some_and(|view| view.is_on);
+    room.stage.session.apply(SoundCommand::UseMicrophone(true));
+    room.run(0.1);
+    assert!(is_on(&room));
+    room.stage.session.apply(EditCommand::SetChannel { pass: PassName::image(), index: 0, channel: None });
+    room.run(0.1);
+    assert!(!is_on(&room) && !room.host.input.is_open());
+    room.stage.session.apply(EditCommand::UndoPassEdit);
+    room.run(0.1);
+    assert!(is_on(&room) && room.host.input.is_open());
     assert_eq!(room.stage.session.shown_pass(), &PassName::image());
 }
 

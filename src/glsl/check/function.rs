@@ -107,8 +107,11 @@ impl Checker<'_> {
             self.hint(format!("choose another name, `my_{text}` for instance, or remove this to use the built-in"));
             self.add_unnamed_function(&sign, decl.header, loc)
         } else if text == "main" && !self.env.has_main() && self.env != Env::Common {
-            let header = self.settings.dialect.header();
-            self.error(name, format!("{header} already has `main`; a pass defines its own entry point"));
+            let wanted = match self.env {
+                Env::Pass(kind) => env::entry(kind).name,
+                _ => "mainImage",
+            };
+            self.error(name, format!("the entry point of this pass is `{wanted}`, not `main`"));
             if let Env::Pass(kind) = self.env {
                 let entry = env::entry(kind);
                 let is_there = self.header_entry.is_some_and(|id| self.module[id].body.is_some());

@@ -113,7 +113,7 @@ impl Preprocessor<'_, '_> {
             None => {
                 self.fence = Some(self.report.diagnostics.len());
                 self.report.add(
-                    Diagnostic::error(marks, "a Markdown fence has no meaning in GLSL")
+                    Diagnostic::error(marks, "Markdown fence: not GLSL")
                         .hint("delete the lines with ```")
                         .fix(Fix::new("Remove the Markdown fence", vec![edit])),
                 );

@@ -65,7 +65,7 @@ fn show(ui: &mut Ui, context: &mut PanelContext<'_>) {
     let mut swatches = Swatches { session, thumbnails, live };
     let Some(pass) = pass(session, tab) else {
         let text = match tab {
-            Tab::Included(_) => "Passes include this file; channels belong to passes",
+            Tab::Included(_) => "An included file has no channels of its own",
             _ => "Common is shared code; channels belong to passes",
         };
         let painter = ui.painter().with_clip_rect(rect);

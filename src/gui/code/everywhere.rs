@@ -78,7 +78,7 @@ impl CodePanel {
         }
         self.report_changed(out);
         if count > 0 {
-            let text = format!("Replaced {count} in {texts} texts. Undo takes it back, in each text by itself");
+            let text = format!("Replaced {count} matches in {texts} tabs. Undo works per tab");
             out.notify(Level::Info, text);
         }
     }

@@ -176,7 +176,7 @@ impl FindBar {
             let (text, color) = match (&self.found.finder, count, at) {
                 (Some(Err(reason)), ..) => (reason.clone(), theme::of(ui).error),
                 (_, 0, _) if self.query.text.is_empty() => (String::new(), theme::of(ui).weak),
-                (_, 0, _) => ("none".into(), theme::of(ui).weak),
+                (_, 0, _) => ("No matches".into(), theme::of(ui).weak),
                 (_, n, Some(at)) => (format!("{} of {n}", at + 1), theme::of(ui).weak),
                 (_, n, None) => (n.to_string(), theme::of(ui).weak),
             };

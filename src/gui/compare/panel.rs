@@ -190,7 +190,7 @@ fn location_text(comparison: &Comparison) -> String {
 
 pub(super) fn distance(apart: &PictureDifference, comparison: &Comparison) -> String {
     if apart.texels_apart == 0 {
-        return "Identical in every bit".to_owned();
+        return "Identical".to_owned();
     }
     let ssim = apart.ssim.map_or("none".to_owned(), |ssim| format!("{ssim:.5}"));
     format!(

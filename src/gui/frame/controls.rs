@@ -68,7 +68,7 @@ fn controls_are_learned_and_removed_by_the_context_menu() {
     right_click(&mut stage, "uniform:red");
     super::harness::click(&mut stage, "uniform-menu:learn:red");
     assert!(
-        stage.state().session.is_learning(&red) && texts(&stage).iter().any(|text| text.contains("touch a control"))
+        stage.state().session.is_learning(&red) && texts(&stage).iter().any(|text| text.contains("Move a control"))
     );
     press(&mut stage, Modifiers::NONE, Key::Escape);
     assert!(!stage.state().session.is_learning(&red), "Escape stops");

@@ -126,7 +126,7 @@ pub(super) fn show(
         let (width, height) = facts.shown;
         let as_shown = format!("{width}x{height}");
         types |= text(ui, (FilmField::Size, "Size in pixels"), &mut form.size, (&as_shown, NARROW), out);
-        hint(ui, "Width x height; empty: as in the window");
+        hint(ui, "Width x height. Empty: size of the picture");
     });
     row(FilmField::Rate, "Frame rate").show(ui, out, |ui, out| {
         types |= text(ui, (FilmField::Rate, "Frames per second"), &mut form.fps, ("60", NARROW), out);
@@ -161,7 +161,7 @@ pub(super) fn show(
     if !form.format.is_still() {
         row(FilmField::Fade, "Loop").show(ui, out, |ui, out| {
             types |= text(ui, (FilmField::Fade, "Seconds that a loop fades"), &mut form.fade, ("No loop", NARROW), out);
-            hint(ui, "Seconds of the end that fade into the start");
+            hint(ui, "Crossfade in seconds");
         });
     }
     if form.format.has_sound() {
@@ -176,7 +176,7 @@ pub(super) fn show(
     });
     if checked.is_taken {
         below(ui, |ui| {
-            let replace = ui.checkbox(&mut recorder.replaces, "Replace what is there");
+            let replace = ui.checkbox(&mut recorder.replaces, "Overwrite");
             out.place("film:replace", replace.rect);
         });
     }

@@ -116,15 +116,8 @@ fn buttons(recorder: &mut Recorder, ui: &mut Ui, checked: &CheckedForm, out: &mu
             false
         };
     let live = why(&checked.live, checked.not_live.as_deref());
-    let is_started = entry(ui, "film:live", "Record what I do", LIVE, &checked.live, live)
-        | entry(
-            ui,
-            "film:range-exactly",
-            "Render this range exactly",
-            RANGE,
-            &checked.range,
-            why(&checked.range, None),
-        );
+    let is_started = entry(ui, "film:live", "Record live", LIVE, &checked.live, live)
+        | entry(ui, "film:range-exactly", "Render range", RANGE, &checked.range, why(&checked.range, None));
     if is_started {
         recorder.replaces = false;
     }

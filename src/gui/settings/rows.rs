@@ -122,7 +122,7 @@ settings! {
         row("Zoom", Kind::Number(Number::percent(0.5, 4.0)), "Size of everything in the window");
     /// The size of code, in points.
     CodeSize(code_size: f32 = 13.0), "code-size" =>
-        row("Code size", Kind::Number(Number::new(8.0, 32.0, 1.0, " pt")), "Size of the letters of code, in points");
+        row("Code font size", Kind::Number(Number::new(8.0, 32.0, 1.0, " pt")), "Font size of the code, in points");
     /// The font file for code; `None`: Eddy's own.
     CodeFont(code_font: Option<String> = None), "code-font" =>
         row("Code font", Kind::FontFile, "A .ttf or .otf file; leave it empty for the built-in font");
@@ -176,7 +176,7 @@ settings! {
         .sends(|settings| Command::Capture(CaptureCommand::SetProjectInPictures(settings.project_in_images)));
     /// The volume, from 0 to 1.
     Volume(volume: f32 = 1.0), "volume" =>
-        row("Volume", Kind::Number(Number::percent(0.0, 1.0)), "How loud music and the sound pass are")
+        row("Volume", Kind::Number(Number::percent(0.0, 1.0)), "Volume of music and sound passes")
             .sends(|settings| Command::Sound(SoundCommand::SetVolume(settings.volume)));
     Mute(mute: bool = false), "mute" =>
         row("Mute", Kind::Switch, "Play no sound").sends(|settings| Command::Sound(SoundCommand::SetMute(settings.mute)));

@@ -25,7 +25,7 @@ fn targets(uniform: &CustomUniform) -> Vec<(ControlTarget, &'static str)> {
 pub(super) fn text(session: &Session, uniform: &CustomUniform) -> Option<String> {
     let names = targets(uniform).into_iter().filter_map(|(target, name)| {
         let control = match session.control_of(&target) {
-            _ if session.is_learning(&target) => "touch a control…".to_owned(),
+            _ if session.is_learning(&target) => "Move a control…".to_owned(),
             control => match (control?.label(), session.control_waits(&target)) {
                 (label, Some(PickupSide::Below)) => format!("turn up {label}"),
                 (label, Some(PickupSide::Above)) => format!("turn down {label}"),

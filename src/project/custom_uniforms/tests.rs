@@ -158,6 +158,9 @@ fn values_are_parsed_from_user_input() {
     for (set, name, value) in [
         ("speed=2", "speed", CustomUniformValue::Float(2.0)),
         (" speed = .5 ", "speed", CustomUniformValue::Float(0.5)),
+        ("speed=0.8400000000000001", "speed", CustomUniformValue::Float(0.84)),
+        ("speed=0.800000011920929", "speed", CustomUniformValue::Float(0.8)),
+        ("at=0.699999988079071,16777217", "at", CustomUniformValue::Vector(vec![0.7, 16777216.0])),
         ("tint=1,0.5, 0", "tint", CustomUniformValue::Vector(vec![1.0, 0.5, 0.0])),
         ("tint=color3(1, .5, .25)", "tint", CustomUniformValue::Vector(vec![1.0, 0.5, 0.25])),
         ("at=vec2(3)", "at", CustomUniformValue::Vector(vec![3.0; 2])),

@@ -95,6 +95,17 @@ impl CustomUniformValue {
         }
     }
 
+    /// Returns the value with each number as the shortest decimal that denotes the same 32-bit float: what a shader reads
+    /// is the same, and files have 0.84, not 0.8400000000000001 or 0.8399999737739563.
+    pub fn shortest(self) -> CustomUniformValue {
+        let short = |x: f64| (x as f32).to_string().parse().unwrap_or(x);
+        match self {
+            CustomUniformValue::Float(x) => CustomUniformValue::Float(short(x)),
+            CustomUniformValue::Vector(all) => CustomUniformValue::Vector(all.into_iter().map(short).collect()),
+            other => other,
+        }
+    }
+
     /// Returns the value as a GLSL constant of its type `ty`.
     pub fn glsl(&self, ty: CustomUniformType) -> String {
         let float = |x: &f64| format!("{:?}", *x as f32);

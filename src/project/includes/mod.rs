@@ -173,7 +173,8 @@ fn tab_sources(project: &Project) -> impl Iterator<Item = &Source> {
 }
 
 impl Project {
-    /// Reads the files that the texts include, relative to the project's folder.
+    /// Reads the files that the texts include, relative to the project's folder. Those of a folder that was moved or
+    /// deleted stay as they were read: they are saved with the project.
     pub fn read_includes(&mut self) {
         match &self.origin {
             super::Origin::Preset(name) => {
@@ -182,6 +183,10 @@ impl Project {
             }
             other => {
                 let base = other.base_dir().map(Path::to_owned);
+                let is_gone = base.as_ref().is_some_and(|base| !base.as_os_str().is_empty() && !base.is_dir());
+                if is_gone && !self.includes.is_empty() {
+                    return;
+                }
                 read(self, base.as_deref().map(Files::on_disk).as_ref());
             }
         }

@@ -232,7 +232,8 @@ fn save_chain(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Res
 fn save_folder(project: &Project, target: &Path, overwrite: Overwrite<'_>) -> Result<Project, ProjectError> {
     let target = if target.as_os_str().is_empty() { Path::new(".") } else { target };
     let (is_home, had_manifest) = match &project.origin {
-        Origin::Folder { path, has_manifest } if is_same(path, target) => (true, *has_manifest),
+        // A folder that was deleted is written as a new one, with everything that was read from it.
+        Origin::Folder { path, has_manifest } if is_same(path, target) && target.is_dir() => (true, *has_manifest),
         _ => (false, false),
     };
     let mut saved = project.clone();

@@ -39,6 +39,9 @@ impl Audio {
     pub(crate) fn hear(&mut self, open: &mut OpenProject) {
         self.reads_microphone = self.uses_microphone && open.documents.current().passes.iter().any(reads_it);
         let is_wanted = self.reads_microphone;
+        if !is_wanted && std::mem::take(&mut self.input_is_missing) {
+            open.dismiss_notices(About::Microphone);
+        }
         if is_wanted != self.is_recording
             && let Some(microphone) = self.microphone(&open.host.wake)
         {
@@ -47,6 +50,9 @@ impl Audio {
         }
         let Some(microphone) = &mut self.microphone else { return };
         microphone.step(open.host.now);
+        if !is_wanted {
+            return;
+        }
         match news(microphone.state(), &mut self.input_is_missing) {
             Some(News::Missing(why)) => {
                 let text = format!(

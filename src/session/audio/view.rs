@@ -20,7 +20,7 @@ pub struct OutputView {
 /// The state of the microphone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MicrophoneView {
-    /// The user has enabled it.
+    /// The user has enabled it and a channel reads it.
     pub is_on: bool,
     /// A channel of the project reads it.
     pub is_read: bool,
@@ -55,7 +55,7 @@ impl Audio {
         audio.host.as_ref()?;
         let is_read = open.project().passes.iter().any(super::reads_it);
         Some(MicrophoneView {
-            is_on: audio.uses_microphone,
+            is_on: audio.uses_microphone && is_read,
             is_read,
             device: audio.microphone.as_ref().map_or(DeviceState::Closed, |microphone| microphone.state()),
             level: audio.microphone.as_ref().map_or(0.0, |microphone| microphone.level()),

@@ -73,6 +73,9 @@ pub enum FileCommand {
     Answer(Answer),
     /// The user wants to quit. Leads to [`Request::Exit`], after a question if something is unsaved.
     Close,
+    /// The system wants the program to quit, at logout for instance. Leads to [`Request::Exit`] at once: unsaved work is
+    /// kept, and offered at the next start.
+    Terminate,
 }
 
 /// Edits of texts, passes, channels and uniforms, and their compilation.

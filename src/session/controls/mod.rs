@@ -288,7 +288,7 @@ impl Controls {
             self.part = Some((target.clone(), address.clone(), open.host.now));
         }
         let address = whole.unwrap_or(address);
-        open.notice_about(About::Controls, Level::Info, format!("{target} follows {}", address.label()));
+        open.notice_about(About::Controls, Level::Info, format!("{target} is mapped to {}", address.label()));
         self.bind(open, target, address);
     }
 
@@ -333,7 +333,7 @@ impl Controls {
         // Redraw to show a knob that waits.
         open.host.changed |= !events.is_empty();
         if open.project().custom_uniform_values != before {
-            open.pass_history.push_controls(before, turned);
+            open.pass_history.push_controls(before, turned, open.host.now);
             open.custom_uniforms_changed();
             open.host.changed = true;
         }

@@ -3,6 +3,7 @@
 //! Owns the watch on the project's folders ([`watcher`]), the wait until another program has finished writing, and the
 //! stamps of pictures and models ([`stamps`]). The texts belong to the documents; `reload` applies changes to them.
 
+mod home;
 mod reload;
 pub(crate) mod stamps;
 mod watcher;
@@ -11,6 +12,7 @@ use super::{debounce::Debounce, documents::Documents, options::SessionOptions};
 use eddy_background::Wake;
 use eddy_playback::capture;
 use eddy_project::{self as project, Loaded, Origin, Project, confine, limits};
+use home::Home;
 use std::{
     collections::BTreeSet,
     mem::take,
@@ -32,6 +34,8 @@ pub(super) struct DiskSync {
     unsettled_since: Option<Instant>,
     /// The last message about such files, so that it is reported once.
     reported: Option<String>,
+    /// Where the project was last read or written.
+    home: Option<Home>,
     /// `eddy.toml` as it was last read or written.
     manifest: Option<Vec<u8>>,
     /// Counts the times that a project was opened or moved.
@@ -56,6 +60,8 @@ enum Check {
     Project(Box<Loaded>),
     /// The files do not form a complete project. `why` is set if it has not been reported before.
     Unusable { why: Option<String> },
+    /// The project's file or folder is no longer there.
+    Gone,
 }
 
 impl DiskSync {
@@ -84,6 +90,11 @@ impl DiskSync {
         self.is_check_wanted = true;
     }
 
+    /// Returns the path of the project's file or folder; `None` if it is not stored in files.
+    pub(crate) fn home_path(&self) -> Option<PathBuf> {
+        self.home.as_ref().map(|home| home.path().to_owned())
+    }
+
     /// Returns when the debounce time after the last file change ends.
     pub(crate) fn deadline(&self) -> Option<Instant> {
         self.changes.deadline()
@@ -107,6 +118,15 @@ impl DiskSync {
         }
         let since = *self.unsettled_since.get_or_insert(now);
         let is_last_try = now.saturating_duration_since(since) >= self.retry_for;
+        if !self.is_home_there(documents) {
+            // Editors move a file away before they write it.
+            if !is_last_try && !self.home.as_ref().is_some_and(Home::is_folder) {
+                self.changes.touch(now);
+                return Check::Nothing;
+            }
+            self.unsettled_since = None;
+            return Check::Gone;
+        }
         let found = Self::read(documents, is_last_try);
         if matches!(found, Some(DiskProject::Unusable(_))) && !is_last_try {
             self.changes.touch(now);
@@ -159,6 +179,13 @@ impl DiskSync {
         Some(DiskProject::Project(Box::new(read)))
     }
 
+    /// Returns whether the project's file or folder is still where it was read; true if it is not stored in files.
+    fn is_home_there(&self, documents: &Documents) -> bool {
+        let saved = documents.saved();
+        let files = || saved.tab_sources().filter_map(|source| source.path.as_deref());
+        self.home.as_ref().is_none_or(|home| home.is_there(files()))
+    }
+
     /// Returns whether every file is unchanged since it was read, or already has the content to be written.
     fn is_as_read(&self, documents: &Documents) -> bool {
         let (saved, current) = (documents.saved(), documents.current());
@@ -181,6 +208,7 @@ impl DiskSync {
     /// Records that the files on disk match the documents.
     fn remember(&mut self, documents: &Documents) {
         self.manifest = read_manifest(documents.saved());
+        self.home = Home::of(&documents.saved().origin);
     }
 
     /// Watches the folders of all files that the project reads, as far as the last compile has found them. Returns

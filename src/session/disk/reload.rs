@@ -9,7 +9,7 @@ use crate::{
 };
 use eddy_playback::capture;
 use eddy_project::{self as project, Included, Loaded, Project, Tab};
-use std::fs;
+use std::{fs, path::Path};
 
 impl OpenProject {
     /// Checks the disk if the watcher has reported a change and the debounce time has passed.
@@ -18,8 +18,10 @@ impl OpenProject {
             Check::Nothing => {}
             Check::Project(project) => {
                 self.dismiss_notices(About::Files);
+                self.dismiss_notices(About::Gone);
                 self.merge(*project);
             }
+            Check::Gone => drop(self.find_home()),
             Check::Unusable { why } => {
                 self.report_missing_files();
                 if let Some(why) = why {
@@ -29,6 +31,46 @@ impl OpenProject {
                 }
             }
         }
+    }
+
+    /// Returns whether the project can be saved where it is. Follows a file or folder that was renamed; says so if it was
+    /// moved or deleted. A single deleted file is written again by saving.
+    pub(crate) fn find_home(&mut self) -> bool {
+        if self.disk.is_home_there(&self.documents) {
+            self.dismiss_notices(About::Gone);
+            return true;
+        }
+        let Some(home) = self.disk.home.clone() else { return true };
+        self.dismiss_notices(About::Files);
+        let what = if home.is_folder() { "folder" } else { "file" };
+        let Some(path) = home.renamed() else {
+            if !home.is_folder() && home.path().parent().is_some_and(Path::is_dir) {
+                self.report_missing_files();
+                return true;
+            }
+            let is_told = self.host.notices.list().iter().any(|notice| notice.about == About::Gone);
+            if !is_told {
+                let place = home.path().display();
+                let text = format!(
+                    "The project's {what} {place} was moved or deleted. Your work is still open here: save it elsewhere"
+                );
+                self.notice_about(About::Gone, Level::Warning, text);
+            }
+            return false;
+        };
+        self.dismiss_notices(About::Gone);
+        self.documents.follow_move(&path);
+        self.disk.has_moved();
+        self.remember_disk();
+        self.disk.want_check();
+        self.compile_soon();
+        self.notice_with_path(
+            About::Project,
+            Level::Info,
+            format!("The {what} was renamed to {}", path.display()),
+            path,
+        );
+        true
     }
 
     /// Reads the project from disk after only the texts were written.
@@ -142,12 +184,11 @@ impl OpenProject {
     }
 
     fn report_missing_file(&mut self, tab: &Tab) {
-        let name = self.project().source(tab).map_or_else(|| tab.title(), |s| s.name.clone());
-        self.notice_about(
-            About::MissingFile,
-            Level::Warning,
-            format!("{name} was deleted or emptied outside Eddy; its tab keeps the text, and saving writes it again"),
-        );
+        let source = self.project().source(tab);
+        let name = source.map_or_else(|| tab.title(), |s| s.name.clone());
+        let is_there = source.and_then(|s| s.path.as_ref()).is_some_and(|path| path.exists());
+        let what = if is_there { "was emptied" } else { "was deleted" };
+        self.notice_about(About::MissingFile, Level::Warning, format!("{name} {what} on disk. Save to write it again"));
     }
 
     /// Returns whether every file is unchanged since it was read, so that saving overwrites no other program's changes.

@@ -4,7 +4,7 @@
 //! edited and also changed on disk is a conflict for the user to resolve. Reads and writes no file.
 
 use super::{command::DiffLine, structure};
-use eddy_project::{Included, Origin, Pass, Project, Source, Tab};
+use eddy_project::{Included, Origin, Pass, Project, Source, Tab, name_at};
 use std::{
     collections::BTreeSet,
     path::{Path, PathBuf},
@@ -232,6 +232,32 @@ impl Documents {
             || !structure::has_same_texts(&self.current, &self.saved)
             || self.current.includes.iter().any(|i| i.is_edited)
             || self.missing.iter().any(|tab| self.current.source(tab).is_some())
+    }
+
+    /// The project's file or folder was renamed to `new`: its texts are in files there, and a name that came from the
+    /// old one follows.
+    pub(crate) fn follow_move(&mut self, new: &Path) {
+        self.revision += 1;
+        let generated = self.generated.iter_mut();
+        for project in [&mut self.current, &mut self.saved].into_iter().chain(generated) {
+            let (Origin::Folder { path: old, .. } | Origin::File(old) | Origin::Json(old)) = &mut project.origin else {
+                continue;
+            };
+            let old = std::mem::replace(old, new.to_owned());
+            if project.name == name_at(&old) {
+                project.name = name_at(new);
+            }
+            for tab in project.tabs() {
+                let Some(source) = project.source_mut(&tab) else { continue };
+                let Some(path) = &mut source.path else { continue };
+                if *path == old {
+                    *path = new.to_owned();
+                    source.name = new.file_name().unwrap_or_default().to_string_lossy().into_owned();
+                } else if let Ok(below) = path.strip_prefix(&old) {
+                    *path = new.join(below);
+                }
+            }
+        }
     }
 
     /// Merges the project on disk. Unedited parts are replaced; the rest is returned as conflicts, and its edited text

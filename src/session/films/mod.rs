@@ -331,7 +331,7 @@ impl Session {
     }
 
     fn film_failed(&mut self, why: String) {
-        self.open.notice_about(About::Film, Level::Error, format!("no film was written: {why}"));
+        self.open.notice_about(About::Film, Level::Error, format!("Film not saved: {why}"));
         self.services.films.ended = Some(Ended::Failed(why));
     }
 

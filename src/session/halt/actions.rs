@@ -40,16 +40,14 @@ impl Session {
         self.open.halt.abandon_frame();
         self.replace_device();
         let is_good = self.open.fall_back(&format!(
-            "a frame of this code did not finish within {secs} s, and its GPU device was dropped; change the code, or \
-             compile again to retry"
+            "a frame of this code did not finish within {secs} s; change the code, or compile again to retry"
         ));
         self.open.end_halt_of_frame();
-        let what =
-            if is_good { "a new device draws the last good code" } else { "a new device waits for your next edit" };
+        let what = if is_good { " with the last version of the code that worked" } else { "" };
         self.open.notice_about(
             About::Code,
             Level::Error,
-            format!("the GPU did not finish a frame within {secs} s: {what}. Your text is unchanged"),
+            format!("The GPU hung for {secs} s and was restarted{what}. Your code is unchanged"),
         );
     }
 

@@ -44,6 +44,8 @@ pub(crate) struct Replay {
     pub playing: Option<Playing>,
     /// The engine has the recording's values of uniforms, not the project's.
     has_values: bool,
+    /// Those of the last frame, once the replay has ended.
+    last_values: CustomUniformValues,
     /// The next job's frame follows the previous one with the state in which that was drawn.
     pub follows: bool,
 }
@@ -227,6 +229,15 @@ impl Playback {
         values
     }
 
+    /// Returns the values of uniforms with which the shown frame of a recording was drawn, until another frame is drawn
+    /// with the project's.
+    pub(crate) fn shown_values(&self) -> Option<&CustomUniformValues> {
+        match &self.replay.playing {
+            Some(playing) => playing.values(),
+            None => self.replay.has_values.then_some(&self.replay.last_values),
+        }
+    }
+
     /// Returns whether the engine has the values of a replay that has ended, once. The next frame follows the last one
     /// with the state in which that was drawn.
     pub(crate) fn drop_replayed_values(&mut self) -> bool {
@@ -252,6 +263,7 @@ impl Playback {
     pub(crate) fn stop_replay(&mut self) -> Option<ReplayView> {
         let playing = self.replay.playing.take()?;
         let view = playing.view();
+        self.replay.last_values = playing.values().cloned().unwrap_or_default();
         if let Some(frame) = playing.newest().filter(|_| view.drawn > 0) {
             // Live input continues from the recorded state.
             self.mouse.follow(frame.inputs.mouse, frame.inputs.drag, frame.inputs.pointer);

@@ -186,8 +186,10 @@ impl Playback {
             self.seeking.goal = Some(SeekTarget::Frame(travelled.goal));
             return false;
         }
-        // With its own canvas size the picture was different.
-        self.is_redraw_due = travelled.is_display_new;
+        // With its own canvas size the picture was different. The last run of the project may have ended with values
+        // that were not saved.
+        let is_outdated = self.seeking.is_restoring && travelled.has_other_values;
+        self.is_redraw_due = travelled.is_display_new || is_outdated;
         self.arrive();
         true
     }

@@ -262,7 +262,7 @@ pub(super) fn options(
         }
         Tab::Stage(..) => return Err("passes that draw meshes cannot be probed".into()),
     };
-    let gone = || "the probed expression is gone: showing the picture".to_owned();
+    let gone = || "No expression at the caret: showing the picture".to_owned();
     if *is_gone {
         return Err(gone());
     }

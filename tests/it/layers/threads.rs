@@ -16,6 +16,7 @@ const STARTED_BY_HAND: &[(&str, &str)] = &[
     ("film/queue/mod.rs", "every picture counts, and the queue is bounded"),
     ("gpu/loss.rs", "its caller waits for it, with a time limit"),
     ("gui/system_theme.rs", "it waits for the desktop"),
+    ("gui/termination.rs", "it waits for signals"),
     ("gui/thumbnails/live.rs", "it draws until the gallery closes, with a larger stack"),
     ("gui/thumbnails/mod.rs", "every picture counts, the newest first"),
     ("lsp/reading.rs", "its caller waits for it, with a time limit and a larger stack"),

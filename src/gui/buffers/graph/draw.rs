@@ -328,7 +328,7 @@ fn legend(ui: &Ui, place: Rect, is_playing: bool, out: &mut UiOutput) {
         x = text.right() + 18.0;
     }
     if !is_playing {
-        let words = "times from before the pause";
+        let words = "times before the pause";
         let text = painter.text(pos2(x, y), Align2::LEFT_CENTER, words, FontId::proportional(11.0), p.warning);
         out.place("buffers:graph:paused", text);
     }

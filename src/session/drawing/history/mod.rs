@@ -45,6 +45,8 @@ pub(crate) struct SeekProgress {
     pub left: u64,
     /// The display is another texture: the canvas had another size on the way.
     pub is_display_new: bool,
+    /// The shown frame was drawn with other values of uniforms than those that the user has set.
+    pub has_other_values: bool,
 }
 
 /// A continuous run of frames: a reset starts another. The canvas may be resized on the way; its buffers then keep the
@@ -334,8 +336,14 @@ impl History {
         }
         // The current values are those set by the user, not those of that frame.
         engine.set_custom_uniforms(&self.values);
-        let inputs = self.frame(self.drawn.checked_sub(1)?)?.inputs.clone();
-        Some(Ok(SeekProgress { inputs, goal: number, left: (number + 1).saturating_sub(self.drawn), is_display_new }))
+        let shown = self.frame(self.drawn.checked_sub(1)?)?;
+        Some(Ok(SeekProgress {
+            inputs: shown.inputs.clone(),
+            goal: number,
+            left: (number + 1).saturating_sub(self.drawn),
+            is_display_new,
+            has_other_values: shown.values != self.values,
+        }))
     }
 
     /// Restores the closest snapshot before a frame, if that is closer than the contents of the targets. False: a

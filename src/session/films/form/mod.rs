@@ -297,7 +297,7 @@ impl FilmForm {
             Ok(_) => true,
         };
         if is_taken && !replaces {
-            let what = if self.format.is_still() { "has files already" } else { "is already there" };
+            let what = if self.format.is_still() { "has files already" } else { "already exists" };
             return (Err(format!("{name} {what}; choose another name, or replace it")), true);
         }
         (Ok(FilmPlace::Named { path, replaces }), is_taken)

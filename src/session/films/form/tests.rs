@@ -118,7 +118,7 @@ fn no_file_is_replaced_without_asking() {
         let form = form(|f| f.file = name.into());
         let checked = form.check(&facts, false);
         assert!(checked.is_taken && checked.range.is_none() && checked.live.is_none(), "{name}");
-        assert!(checked.error(FilmField::File).is_some_and(|why| why.contains("a.mp4 is already there")), "{name}");
+        assert!(checked.error(FilmField::File).is_some_and(|why| why.contains("a.mp4 already exists")), "{name}");
         let place = form.check(&facts, true).range.unwrap().place;
         assert_eq!(place, FilmPlace::Named { path: folder.path().join(name).with_extension("mp4"), replaces: true });
     }

@@ -38,7 +38,7 @@ void f(struct S { float a; } s) { }
 const float f() { return 1.0; }
 //ok 6.1 precision of a result
 highp float f() { return 1.0; }
-//error 6.1 main | already has `main`
+//error 6.1 main | not `main`
 void main() { }
 //error 6.1.1 int for float | argument 1 of `f` must be a `float`
 void f(float x) { } void g() { f(1); }
