@@ -1,6 +1,6 @@
 //! Determines which draws of a frame may be skipped because nothing they read has changed.
 
-use super::{Draw, FramePlan, TexelSource};
+use super::{Dependencies, Draw, FramePlan, TexelSource};
 use eddy_project::MAX_CHANNELS;
 
 /// Tracks what has changed since each draw was executed. A counter increases with every drawing of a target, so that a
@@ -31,15 +31,19 @@ impl Changes {
         self.read.fill(None);
     }
 
-    /// Returns whether draw `index` of the plan must be executed now. `inputs` is everything it reads apart from
-    /// targets, in any form for which equality means equal inputs. If it returns true, the draw counts as executed.
-    pub fn must_draw(&mut self, index: usize, draw: &Draw, inputs: &[u8]) -> bool {
-        if draw.is_cacheable {
+    /// Returns whether draw `index` of the plan must be executed now. `dependencies` are those of this frame. `inputs` is
+    /// everything it depends on apart from targets, in any form for which equality means equal inputs and equal
+    /// dependencies. If it returns true, the draw counts as executed.
+    pub fn must_draw(&mut self, index: usize, draw: &Draw, dependencies: &Dependencies, inputs: &[u8]) -> bool {
+        // What a draw that cannot be cached leaves is not what was recorded before.
+        let before = self.read[index].take();
+        if dependencies.is_cacheable {
             let targets = std::array::from_fn(|channel| match draw.reads[channel].as_ref().map(|r| &r.source) {
-                Some(TexelSource::Target { index, .. }) => self.drawn[*index],
+                Some(TexelSource::Target { index, .. }) if dependencies.channels[channel] => self.drawn[*index],
                 _ => 0,
             });
-            if self.read[index].as_ref().is_some_and(|r| r.targets == targets && r.inputs == inputs) {
+            if before.as_ref().is_some_and(|r| r.targets == targets && r.inputs == inputs) {
+                self.read[index] = before;
                 return false;
             }
             self.read[index] = Some(ReadVersions { targets, inputs: inputs.to_vec() });
