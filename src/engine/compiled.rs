@@ -104,6 +104,7 @@ fn join(all: &mut Reflection, one: &Reflection) {
         all.sampler |= one.sampler;
         all.mips |= one.mips;
         all.texels = all.texels.joined(one.texels);
+        all.components |= one.components;
     }
     all.discards |= one.discards;
     all.geometry |= one.geometry;

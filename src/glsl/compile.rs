@@ -107,7 +107,7 @@ pub(super) fn compile_seen(
     opt::optimise(&mut program, source.driver.disabled_optimisations, &mut seen);
     let specialisable = opt::specialise::Specialisable::new(&program).filter(|_| !source.kind.is_plain());
     for (channel, read) in reflection.channels.iter_mut().zip(opt::specialise::Reads::of(&program).channels) {
-        channel.texels = read.texels;
+        (channel.texels, channel.components) = (read.texels, read.components);
     }
     emit::work_arounds::apply(&mut program, source);
     ir::verify::assert_kept(&program, "work-arounds");

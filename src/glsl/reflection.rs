@@ -86,6 +86,8 @@ pub struct ChannelUse {
     pub mips: bool,
     /// The texels that are read.
     pub texels: TexelUse,
+    /// The components of texels that some operation uses, one bit each from red on.
+    pub components: u8,
 }
 
 impl ChannelUse {

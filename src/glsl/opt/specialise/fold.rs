@@ -293,6 +293,10 @@ impl Fold<'_> {
             return;
         }
         let facts = self.facts_of(&op, self.f.ty(value), memory);
+        if let Op::Fetch { channel, coordinate, .. } = op {
+            let facts = self.of(coordinate);
+            self.found.fetched(channel, facts);
+        }
         if let Op::Call { function, args } = &op {
             for (index, &arg) in args.iter().enumerate() {
                 match self.f.is_place(arg).then(|| self.variable(arg)).flatten() {

@@ -20,7 +20,7 @@ mod tests;
 
 pub use reads::Reads;
 
-use crate::ir::{Module, verify};
+use crate::ir::{Module, Op, verify};
 use std::sync::Arc;
 use summary::Summary;
 
@@ -66,10 +66,28 @@ impl Specialisable {
     /// in which `iTime`, `iTimeDelta` and `iFrameRate` are between 0 and [`MAX_SECONDS`], and not -0, and the components
     /// of `iMouse` between -2^20 and 2^20.
     pub fn reads(&self, slots: &[[u32; 4]]) -> Reads {
-        Reads::of(&self.specialised(slots))
+        Reads::of(&self.specialised(slots).0)
     }
 
-    fn specialised(&self, slots: &[[u32; 4]]) -> Module {
+    /// Returns the texels across and up, from the first one on, outside of which the program never fetches one of a
+    /// channel, whatever the values of custom uniforms; `None` if that is not known, or if the channel is also read with
+    /// filters.
+    pub fn fetched_extent(&self, channel: u8) -> Option<(u32, u32)> {
+        let (module, last) = self.specialised(&[]);
+        let is_filtered = |op: &Op| match *op {
+            Op::Sample { channel: read, .. } | Op::Gather { channel: read, .. } => read == channel,
+            _ => false,
+        };
+        if module.functions.iter().any(|f| f.values().any(|(_, op)| is_filtered(op))) {
+            return None;
+        }
+        let [x, y, ..] = last.coordinates(channel);
+        let end = |number: Option<number::Number>| Some(number?.max.clamp(0.0, f64::from(1 << 30)) as u32 + 1);
+        end(x).zip(end(y))
+    }
+
+    /// Returns the specialised program, and what its last round found.
+    fn specialised(&self, slots: &[[u32; 4]]) -> (Module, Summary) {
         let mut module = (*self.0).clone();
         let assumptions = Assumptions { slots };
         let mut known = Summary::default();
@@ -85,13 +103,14 @@ impl Specialisable {
             sweep::run(&mut module);
             verify::assert_kept(&module, "specialise");
             let values = module.functions.iter().map(|f| f.len()).sum();
+            let is_same = module.functions.len() == functions;
             // Facts belong to functions by their numbers.
-            known = if module.functions.len() == functions { found } else { Summary::default() };
-            if values == size {
+            known = if is_same { found } else { Summary::default() };
+            if is_same && values == size {
                 break;
             }
             size = values;
         }
-        module
+        (module, known)
     }
 }

@@ -28,9 +28,10 @@ impl Reads {
         let mut fixed: [BTreeSet<Vec<u32>>; MAX_CHANNELS] = Default::default();
         for f in &module.functions {
             reads.discards |= f.body.iter().any(discards);
-            for (value, op) in f.values() {
-                reads.add(module, f, (value, op), &mut fixed);
+            for (_, op) in f.values() {
+                reads.add(module, f, op, &mut fixed);
             }
+            reads.add_components(f);
         }
         for (channel, fixed) in reads.channels.iter_mut().zip(fixed) {
             if channel.texels == TexelUse::None && !fixed.is_empty() {
@@ -44,7 +45,7 @@ impl Reads {
         &mut self,
         module: &Module,
         f: &Function,
-        (_, op): (Value, &Op),
+        op: &Op,
         fixed: &mut [BTreeSet<Vec<u32>>; MAX_CHANNELS],
     ) {
         let is_base = |level: Value| matches!(f[level], Op::Literal(_, 0) | Op::Zero(_));
@@ -84,6 +85,51 @@ impl Reads {
         if texels == TexelUse::Any {
             entry.texels = texels;
         }
+    }
+}
+
+impl Reads {
+    /// Adds the components of texels that operations of a function use.
+    fn add_components(&mut self, f: &Function) {
+        let channel_of = |value: Value| match f[value] {
+            Op::Sample { channel, .. } | Op::Fetch { channel, .. } => Some(usize::from(channel)),
+            _ => None,
+        };
+        let mut add_to = |channel: usize, components: u8| {
+            if let Some(entry) = self.channels.get_mut(channel) {
+                entry.components |= components;
+            }
+        };
+        let mut add = |value: Value, components: u8| {
+            if let Some(channel) = channel_of(value) {
+                add_to(channel, components);
+            }
+        };
+        let mut gathered = Vec::new();
+        for (_, op) in f.values() {
+            match *op {
+                Op::Part { base, index } => add(base, 1 << index.min(3)),
+                Op::Swizzle { vector, swizzle } => add(vector, swizzle.iter().fold(0, |all, index| all | 1 << index)),
+                // Its four values are one component of four texels.
+                Op::Gather { channel, component, .. } => {
+                    gathered.push((usize::from(channel), 1 << component.min(3)));
+                    op.operands(|operand| add(operand, ALL_COMPONENTS));
+                }
+                _ => op.operands(|operand| add(operand, ALL_COMPONENTS)),
+            }
+        }
+        each_operand(&f.body, &mut |operand| add(operand, ALL_COMPONENTS));
+        gathered.into_iter().for_each(|(channel, components)| add_to(channel, components));
+    }
+}
+
+const ALL_COMPONENTS: u8 = 0b1111;
+
+/// Visits the operands of statements, at any depth.
+fn each_operand(block: &[Stmt], visit: &mut impl FnMut(Value)) {
+    for stmt in block {
+        stmt.operands(&mut *visit);
+        stmt.blocks(|block| each_operand(block, visit));
     }
 }
 

@@ -68,6 +68,8 @@ pub(super) struct Summary {
     globals: FxHashMap<GlobalId, Seen>,
     params: FxHashMap<(usize, u32), Seen>,
     results: FxHashMap<usize, Seen>,
+    /// The coordinates of fetches, by channel.
+    fetched: FxHashMap<u8, Seen>,
 }
 
 impl Summary {
@@ -106,6 +108,15 @@ impl Summary {
 
     pub(super) fn returned(&mut self, function: usize, facts: Facts) {
         self.results.entry(function).or_default().add(None, facts);
+    }
+
+    pub(super) fn fetched(&mut self, channel: u8, coordinate: Facts) {
+        self.fetched.entry(channel).or_default().add(None, coordinate);
+    }
+
+    /// Returns the bounds of the coordinates at which texels of a channel are fetched.
+    pub(super) fn coordinates(&self, channel: u8) -> Facts {
+        self.fetched.get(&channel).map_or(UNKNOWN, |seen| seen.facts())
     }
 
     pub(super) fn var(&self, function: usize, var: VarId) -> Facts {

@@ -58,7 +58,7 @@ fn remove_dead_calls(module: &mut Module) {
             if let Stmt::Let(value) = stmt {
                 f[*value].operands(|operand| is_used[operand.index()] = true);
             }
-            stmt.clone_operands(|operand| is_used[operand.index()] = true);
+            stmt.operands(|operand| is_used[operand.index()] = true);
         });
         retain(&mut body, &|stmt| match stmt {
             Stmt::Let(value) => match f[*value] {
@@ -136,21 +136,5 @@ fn remove_dead_stores(module: &mut Module) {
             _ => true,
         });
         f.body = body;
-    }
-}
-
-impl Stmt {
-    /// Visits the operands of the statement itself, in order.
-    fn clone_operands(&self, mut visit: impl FnMut(Value)) {
-        match self {
-            Stmt::Store { place, value } => {
-                visit(*place);
-                visit(*value);
-            }
-            Stmt::If { condition: value, .. } | Stmt::Switch { selector: value, .. } => visit(*value),
-            Stmt::Loop { break_if: value, .. } | Stmt::Return(value) => value.iter().copied().for_each(visit),
-            Stmt::Output(parts) => parts.iter().for_each(|(_, value)| visit(*value)),
-            Stmt::Let(_) | Stmt::Break | Stmt::Continue | Stmt::Discard => {}
-        }
     }
 }
