@@ -53,10 +53,7 @@ impl CompiledPass {
 
     /// Returns the properties that the planner needs.
     pub fn facts(&self) -> PassFacts {
-        PassFacts {
-            channels: self.reflection.channels.map(channel_facts),
-            discards: self.reflection.discards,
-        }
+        PassFacts { channels: self.reflection.channels.map(channel_facts), discards: self.reflection.discards }
     }
 
     /// Returns a pass over the whole target, or the diagnostics if its stage was not compiled.

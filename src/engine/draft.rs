@@ -121,7 +121,8 @@ impl ProgramDraft {
         let CompiledPass { programs, reflection, .. } = compiled;
         let channel_group = channel_bindings(&channels);
         let stages = programs.iter().flat_map(CompiledProgram::stages);
-        let specialisable = stages.map(|stage| stage.specialisable.clone()).collect::<Option<Vec<_>>>().unwrap_or_default();
+        let specialisable =
+            stages.map(|stage| stage.specialisable.clone()).collect::<Option<Vec<_>>>().unwrap_or_default();
         let order = |(n, program): (usize, CompiledProgram)| PipelineOrder {
             label: pass.id.title(),
             groups: [uniform_bindings(&program, &reflection), channel_group.clone()],

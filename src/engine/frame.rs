@@ -1,7 +1,10 @@
 //! A frame: the loop that executes the operations of a [`Schedule`](eddy_graph::Schedule).
 
 use super::{
-    EngineError, FrameInputs, FrameStats, PassInputs, PassTime, Program, display::Display, host, inspect::Capture,
+    EngineError, FrameInputs, FrameStats, PassInputs, PassTime, Program,
+    display::Display,
+    host,
+    inspect::Capture,
     resting,
     running::Running,
     shared::Shared,

@@ -1,4 +1,4 @@
-//! What draws read while the author's uniforms rest: with their values as constants, a draw may read less than its
+//! Skips draws while the author's uniforms rest: with their values as constants, a draw may read less than its
 //! program can, for example no time where the speed is 0. Such a draw is executed only when what it then reads changes.
 //!
 //! All draws use the program that was built; the values are only used to find out what it depends on. So a value that
@@ -17,7 +17,7 @@ const RESTING_FRAMES: u32 = 8;
 /// The size of the programs that one frame specialises, in values: a millisecond or two.
 const SIZE_PER_FRAME: usize = 4000;
 
-/// What the draws of a program read at the present values of custom uniforms.
+/// The reads of a program's draws at the present values of custom uniforms.
 #[derive(Default)]
 pub(super) struct Resting {
     /// The values of the newest frame.
@@ -37,7 +37,7 @@ enum State {
     Less(RestingReads),
 }
 
-/// What a draw depends on at the present values of custom uniforms, apart from these.
+/// The inputs that a draw depends on at the present values of custom uniforms, apart from these.
 #[derive(Clone, Copy)]
 pub(super) struct RestingReads {
     pub uniforms: UniformReads,

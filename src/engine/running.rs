@@ -5,8 +5,8 @@ use super::{
     bind::{Bindings, draw_fill},
     custom_uniforms,
     frame::Unfinished,
-    resting::Resting,
     program::Program,
+    resting::Resting,
     shared::Shared,
     targets::{NewTargets, Target},
     uniforms::{self, Uniforms},
@@ -25,7 +25,7 @@ pub(super) struct Running {
     pub bindings: Bindings,
     pub uniforms: Uniforms,
     pub changes: Changes,
-    /// What draws read while custom uniforms keep their values.
+    /// The reads of draws while custom uniforms keep their values.
     pub resting: Resting,
     /// For each draw, whether its targets have their contents before frame 0 because its condition is false.
     pub is_blank: Vec<bool>,

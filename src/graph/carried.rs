@@ -28,7 +28,11 @@ impl FramePlan {
         }
         let is_read =
             |source: &TexelSource| *source == TexelSource::Target { index: target, when: ReadTiming::LastFrame };
-        let is_read = self.draws.iter().flat_map(|draw| draw.reads.iter().flatten()).any(|read| read.reads_texels() && is_read(&read.source));
+        let is_read = self
+            .draws
+            .iter()
+            .flat_map(|draw| draw.reads.iter().flatten())
+            .any(|read| read.reads_texels() && is_read(&read.source));
         if is_read || draw.keeps_content || draw.region.is_some() { Carried::Newest } else { Carried::Nothing }
     }
 

@@ -68,9 +68,7 @@ impl Changes {
 mod tests {
     use super::*;
     use crate::{ChannelFacts, PassFacts};
-    use eddy_project::{
-        Channel, Filter, Input, Origin, Pass, PassName, PassSize, Project, Sampler, Source, Wrap,
-    };
+    use eddy_project::{Channel, Filter, Input, Origin, Pass, PassName, PassSize, Project, Sampler, Source, Wrap};
 
     fn pass(id: PassName, reads: &[&str]) -> Pass {
         let mut pass = Pass::new(id, Source { name: String::new(), path: None, text: "".into() });
@@ -84,11 +82,7 @@ mod tests {
     /// A reads itself, Image reads A and B.
     fn project() -> Project {
         let buffer = |name: &str| PassName::buffer(name);
-        let passes = vec![
-            pass(buffer("A"), &["A"]),
-            pass(buffer("B"), &[]),
-            pass(PassName::image(), &["A", "B"]),
-        ];
+        let passes = vec![pass(buffer("A"), &["A"]), pass(buffer("B"), &[]), pass(PassName::image(), &["A", "B"])];
         Project::new("test", passes, Origin::Unsaved)
     }
 

@@ -39,8 +39,7 @@ pub struct PassFacts {
 
 impl PassFacts {
     /// Reads every channel at every level and discards: the assumption for an unknown pass.
-    pub const ANYTHING: PassFacts =
-        PassFacts { channels: [ChannelFacts::ANYTHING; MAX_CHANNELS], discards: true };
+    pub const ANYTHING: PassFacts = PassFacts { channels: [ChannelFacts::ANYTHING; MAX_CHANNELS], discards: true };
 }
 
 /// The frame whose picture of a target a read sees.
@@ -176,7 +175,12 @@ impl Draw {
     /// Returns the draw for a fill of the pass. It reads none of the pass's inputs, only its own picture if the fill is
     /// one.
     pub fn of_fill(&self, is_picture: bool) -> Draw {
-        let read = is_picture.then_some(Read { source: TexelSource::External, sampler: FILL_SAMPLER, mips: false, max_texels: None });
+        let read = is_picture.then_some(Read {
+            source: TexelSource::External,
+            sampler: FILL_SAMPLER,
+            mips: false,
+            max_texels: None,
+        });
         let mut reads = [const { None }; MAX_CHANNELS];
         reads[0] = read;
         Draw { reads, clear: None, keeps_content: true, is_cacheable: false, ..self.clone() }
@@ -409,11 +413,9 @@ impl FramePlan {
         }
         for draw in &mut self.draws {
             let own = draw.targets.clone();
-            let reads_itself = draw
-                .reads
-                .iter()
-                .flatten()
-                .any(|r| r.reads_texels() && matches!(r.source, TexelSource::Target { index, .. } if own.contains(&index)));
+            let reads_itself = draw.reads.iter().flatten().any(|r| {
+                r.reads_texels() && matches!(r.source, TexelSource::Target { index, .. } if own.contains(&index))
+            });
             let is_cleared = project.dialect.clear_colour(&project.passes[draw.pass]).is_some();
             let shows_before = facts[draw.pass].discards && !is_cleared;
             draw.is_cacheable = skip && !shows_before && !reads_itself;

@@ -33,7 +33,10 @@ fn project(passes: Vec<Pass>) -> Project {
 }
 
 fn reads_all() -> PassFacts {
-    PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: true, max_texels: None }; MAX_CHANNELS], discards: false }
+    PassFacts {
+        channels: [ChannelFacts { is_read: true, reaches_mips: true, max_texels: None }; MAX_CHANNELS],
+        discards: false,
+    }
 }
 
 fn plan(project: &Project) -> FramePlan {
@@ -266,7 +269,9 @@ fn a_draw_is_skipped_until_one_of_its_transitive_inputs_changes() {
     let mut changes = Changes::new(&plan);
     let frame = |changes: &mut Changes, inputs: [u8; 4]| -> String {
         let due = |(i, draw)| {
-            changes.must_draw(i, draw, &draw.dependencies(), &inputs[i..=i]).then(|| project.passes[plan.draws[i].pass].id.title())
+            changes
+                .must_draw(i, draw, &draw.dependencies(), &inputs[i..=i])
+                .then(|| project.passes[plan.draws[i].pass].id.title())
         };
         let titles: Vec<String> = plan.draws.iter().enumerate().filter_map(due).collect();
         titles.iter().map(|t| t.chars().last().unwrap()).collect()

@@ -197,10 +197,8 @@ fn a_pass_whose_size_alone_is_asked_is_not_drawn() {
     let Some(gpu) = gpu() else { return };
     let a = "void mainImage(out vec4 o, in vec2 p) { o = vec4(iTime); }";
     let picture = "void mainImage(out vec4 o, in vec2 p) { o = vec4(textureSize(iChannel0, 0), 0, 1); }";
-    let project = project(vec![
-        pass(buffer("A"), a, [None, None, None, None]),
-        image(picture, [nearest("A"), None, None, None]),
-    ]);
+    let project =
+        project(vec![pass(buffer("A"), a, [None, None, None, None]), image(picture, [nearest("A"), None, None, None])]);
     let media = MediaSet::new();
     let mut engine = engine_of(&gpu, &project, &media, true);
     assert_eq!(engine.draw(&FrameInputs::at_fixed_step(0, 60.0)).unwrap().passes_drawn, 1);

@@ -12,7 +12,7 @@ use std::{
     hash::{Hash, Hasher},
 };
 
-/// What was seen of a run.
+/// The observations of a run.
 #[derive(Default)]
 pub(super) struct Frames {
     passes: BTreeMap<PassName, Seen>,
@@ -20,7 +20,7 @@ pub(super) struct Frames {
     pub pictures: Vec<Vec<u8>>,
 }
 
-/// What was seen of a pass.
+/// The observations of a pass.
 #[derive(Default)]
 struct Seen {
     /// A hash of all its texels after the newest frame.

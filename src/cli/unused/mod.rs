@@ -1,8 +1,8 @@
 //! `eddy unused`: the work of a project that nothing depends on, what it costs, and whether Eddy leaves it out already.
 
 mod measured;
-mod precision;
 mod planned;
+mod precision;
 
 use super::{
     args::{HostProgram, UnusedArgs},
@@ -19,7 +19,7 @@ use crate::{
 use serde::Serialize;
 use std::{collections::HashMap, fmt::Write, io};
 
-/// What is unused of a project.
+/// The unused parts of a project.
 #[derive(Debug, Serialize)]
 struct Unused {
     width: u32,
@@ -57,7 +57,7 @@ struct Finding {
     pass: String,
     #[serde(skip)]
     title: String,
-    /// What is unused, and how to change it.
+    /// Says what is unused, and how to change it.
     message: String,
     /// The milliseconds of a frame that it takes, as far as they are known.
     ms: Option<f64>,

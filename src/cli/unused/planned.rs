@@ -1,4 +1,4 @@
-//! What is known without drawing: passes, channels, components, mip levels and texels that no code reads.
+//! Findings without drawing: passes, channels, components, mip levels and texels that no code reads.
 
 use super::{Finding, Kind, is_drawn, millis};
 use crate::{
@@ -29,7 +29,9 @@ pub(super) fn find(
     let is_shown = |pass: &PassName| costs.iter().any(|cost| cost.pass == *pass && is_drawn(cost));
     let drawn = project.passes.iter().enumerate().filter(|(_, pass)| is_shown(&pass.id));
     let readers: Vec<Reader<'_>> = drawn
-        .filter_map(|(index, pass)| Some(Reader { compiled: sources.compile_pass(index, Driver::default()).ok()?, pass }))
+        .filter_map(|(index, pass)| {
+            Some(Reader { compiled: sources.compile_pass(index, Driver::default()).ok()?, pass })
+        })
         .collect();
     for cost in costs {
         match cost.role {

@@ -11,7 +11,7 @@ use crate::{
     project::{PassName, Project, TexelFormat},
 };
 
-/// The largest difference of an 8-bit picture that nobody sees: one level.
+/// The largest difference of an 8-bit picture that counts as invisible: one level.
 const MAX_LEVELS: u8 = 1;
 
 /// The run that formats are tried in.

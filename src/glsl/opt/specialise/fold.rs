@@ -218,9 +218,9 @@ impl Fold<'_> {
                     computed.push(*value);
                 }
                 Stmt::If { condition, accept, reject } => {
-                    breaks = self.bool(self.mapped(*condition)).is_some_and(|bit| {
-                        matches!(if bit { accept } else { reject }[..], [Stmt::Break])
-                    });
+                    breaks = self
+                        .bool(self.mapped(*condition))
+                        .is_some_and(|bit| matches!(if bit { accept } else { reject }[..], [Stmt::Break]));
                     break;
                 }
                 _ => break,
@@ -532,9 +532,7 @@ fn uniform_facts(uniform: Uniform) -> Facts {
 /// Returns whether a block always ends by leaving.
 fn ends(block: &Block) -> bool {
     match block.last() {
-        Some(Stmt::If { accept, reject, .. }) => {
-            (leaves(accept) || ends(accept)) && (leaves(reject) || ends(reject))
-        }
+        Some(Stmt::If { accept, reject, .. }) => (leaves(accept) || ends(accept)) && (leaves(reject) || ends(reject)),
         _ => leaves(block),
     }
 }

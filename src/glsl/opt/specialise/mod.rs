@@ -1,4 +1,4 @@
-//! Programs with the values of custom uniforms as constants: what they read then.
+//! Programs with the values of custom uniforms as constants, and what they read then.
 //!
 //! A specialised program is never drawn. It is only asked what it reads, so that a pass that reads nothing that has
 //! changed is not drawn again. That is exact: the general program computes the same texels as the specialised one,
@@ -34,7 +34,7 @@ const MAX_VALUES: usize = 60_000;
 /// Nested calls and variables need a round each; hardly any program needs more.
 const MAX_ROUNDS: usize = 5;
 
-/// What is taken as known of the inputs.
+/// The inputs that are taken as known.
 struct Assumptions<'a> {
     /// The words of the custom uniforms by their slots; later slots are unknown.
     slots: &'a [[u32; 4]],

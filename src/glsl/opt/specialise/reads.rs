@@ -1,4 +1,4 @@
-//! What a program reads, from its operations.
+//! The reads of a program, from its operations.
 
 use crate::{
     UniformSet,
@@ -41,13 +41,7 @@ impl Reads {
         reads
     }
 
-    fn add(
-        &mut self,
-        module: &Module,
-        f: &Function,
-        op: &Op,
-        fixed: &mut [BTreeSet<Vec<u32>>; MAX_CHANNELS],
-    ) {
+    fn add(&mut self, module: &Module, f: &Function, op: &Op, fixed: &mut [BTreeSet<Vec<u32>>; MAX_CHANNELS]) {
         let is_base = |level: Value| matches!(f[level], Op::Literal(_, 0) | Op::Zero(_));
         let (channel, texels, mips) = match *op {
             Op::Global(id) => {

@@ -1,4 +1,4 @@
-//! What is known of a whole program between two rounds of folding: of variables, parameters and results.
+//! Facts about a whole program between two rounds of folding: about variables, parameters and results.
 
 use super::number::Number;
 use crate::{
@@ -7,7 +7,7 @@ use crate::{
 };
 use rustc_hash::FxHashMap;
 
-/// What is known of each component of a scalar or a vector. All `None` for other types.
+/// The number that each component of a scalar or a vector is known to be. All `None` for other types.
 pub(super) type Facts = [Option<Number>; 4];
 
 const UNKNOWN: Facts = [None; 4];
@@ -61,7 +61,7 @@ impl Default for Seen {
     }
 }
 
-/// What one round of folding found.
+/// The facts that one round of folding found.
 #[derive(Debug, Default)]
 pub(super) struct Summary {
     vars: FxHashMap<(usize, VarId), Seen>,

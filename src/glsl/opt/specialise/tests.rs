@@ -55,12 +55,12 @@ fn time_times_zero_is_not_read() {
 #[test]
 fn what_may_differ_in_a_bit_is_read() {
     for code in [
-        "c.x = k * sin(iTime);",                  // 0 or -0
-        "c.x = sign(1.0 / (k * -iTime));",        // -0
-        "c.x = k * (1.0 / iTime);",               // NaN at frame 0
-        "c.x = k * exp(iTime);",                  // NaN from infinity
-        "c.x = k * log(iTime);",                  // NaN from infinity
-        "c.x = k * pow(2.0, iTime);",             // NaN from infinity
+        "c.x = k * sin(iTime);",                        // 0 or -0
+        "c.x = sign(1.0 / (k * -iTime));",              // -0
+        "c.x = k * (1.0 / iTime);",                     // NaN at frame 0
+        "c.x = k * exp(iTime);",                        // NaN from infinity
+        "c.x = k * log(iTime);",                        // NaN from infinity
+        "c.x = k * pow(2.0, iTime);",                   // NaN from infinity
         "c.x = k * texture(iChannel0, vec2(iTime)).x;", // a texel may be NaN
         "c.x = mix(-0.0, sin(iTime), k);",
         "float t = iTime; for (int i = 0; i < 3; i++) { c.x += t; t *= k; }",
