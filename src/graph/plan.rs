@@ -187,7 +187,7 @@ impl Draw {
     }
 }
 
-/// What decides whether a draw must be executed.
+/// The inputs by which it is decided whether a draw must be executed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Dependencies {
     /// For each channel, whether the result may depend on its texels.

@@ -151,7 +151,7 @@ fn is_drawn(cost: &PassCost) -> bool {
 
 /// Returns the milliseconds of a pass in a frame that draws it.
 fn millis(times: &HashMap<crate::project::PassName, f64>, cost: &PassCost) -> Option<f64> {
-    times.get(&cost.pass).copied()
+    times.get(&cost.pass).copied().filter(|ms| *ms > 0.0)
 }
 
 fn words(report: &Report, unused: &Unused) -> String {
