@@ -3,7 +3,7 @@
 use super::{Finding, Kind, is_drawn, millis};
 use crate::{
     engine::{CompiledPass, PassCost, PassRole, Sources},
-    glsl::{Driver, TexelUse},
+    glsl::{Driver, TexelUse, UniformSet},
     graph::FramePlan,
     project::{Filter, PassName, Project, TexelFormat},
 };
@@ -73,10 +73,16 @@ fn unread(project: &Project, cost: &PassCost, (width, height): (u32, u32)) -> Fi
 /// Returns the channels of a pass that name a pass and are not read.
 fn channels(readers: &[Reader<'_>], cost: &PassCost) -> Vec<Finding> {
     let Some(reader) = readers.iter().find(|reader| reader.pass.id == cost.pass) else { return Vec::new() };
+    // Of which channel is not known.
+    let sizes = UniformSet::CHANNEL_RESOLUTION | UniformSet::CHANNEL_LOADED;
+    let asks_size = reader.compiled.reflection.uniforms.intersects(sizes);
     let finding = |read: &crate::engine::PassRead| {
         let used = reader.compiled.reflection.channels[read.channel];
         let (channel, of) = (read.channel, read.pass.title());
         let message = match (used.is_read(), used.texels) {
+            (false, _) if asks_size => {
+                format!("of iChannel{channel}, {of}, no texel is read; the code reads iChannelResolution")
+            }
             (false, _) => format!("iChannel{channel}, {of}, is not read: remove it"),
             (true, TexelUse::None) => format!("of iChannel{channel}, {of}, only the size is asked"),
             _ => return None,
