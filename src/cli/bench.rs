@@ -209,7 +209,7 @@ fn measure(
 }
 
 /// The median time of each pass in the frames in which it was drawn.
-fn pass_times(offline: &mut Offline, frames: u32) -> Result<HashMap<PassName, f64>, RunError> {
+pub(super) fn pass_times(offline: &mut Offline, frames: u32) -> Result<HashMap<PassName, f64>, RunError> {
     let mut times: HashMap<PassName, Vec<f64>> = HashMap::new();
     for _ in 0..frames {
         for time in offline.draw_timed()? {

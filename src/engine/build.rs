@@ -220,6 +220,7 @@ impl Builder {
             custom_uniforms: texts.custom_uniforms().list.clone(),
             custom_uniform_values: project.custom_uniform_values.clone(),
             dialect: project.dialect,
+            skips: options.skip,
         };
         Ok(Built { program, diagnostics, sources, work: BuildWork::default() })
     }

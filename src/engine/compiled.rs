@@ -1,7 +1,7 @@
 //! A compiled pass, whether it is one full-screen program or the programs of several meshes.
 
 use eddy_diag::Diagnostic;
-use eddy_glsl::{Compiled, Reflection, interface};
+use eddy_glsl::{ChannelUse, Compiled, Reflection, TexelUse, interface};
 use eddy_graph::{ChannelFacts, PassFacts};
 use std::sync::Arc;
 
@@ -35,7 +35,7 @@ impl CompiledProgram {
     }
 
     /// Returns its stages.
-    pub fn stages(&self) -> impl Iterator<Item = &Compiled> {
+    pub fn stages(&self) -> impl Iterator<Item = &Compiled> + use<'_> {
         self.vertex.iter().chain([&self.fragment]).map(|stage| &**stage)
     }
 
@@ -53,10 +53,7 @@ impl CompiledPass {
 
     /// Returns the properties that the planner needs.
     pub fn facts(&self) -> PassFacts {
-        PassFacts {
-            channels: self.reflection.channels.map(|c| ChannelFacts { is_read: c.is_read(), reaches_mips: c.mips }),
-            discards: self.reflection.discards,
-        }
+        PassFacts { channels: self.reflection.channels.map(channel_facts), discards: self.reflection.discards }
     }
 
     /// Returns a pass over the whole target, or the diagnostics if its stage was not compiled.
@@ -85,6 +82,16 @@ impl CompiledPass {
     }
 }
 
+/// Returns the facts about a channel that is used like this.
+pub(super) fn channel_facts(used: ChannelUse) -> ChannelFacts {
+    let max_texels = match used.texels {
+        TexelUse::None => Some(0),
+        TexelUse::Fixed(count) => Some(count),
+        TexelUse::Any => None,
+    };
+    ChannelFacts { is_read: used.is_read(), reaches_mips: used.mips, max_texels }
+}
+
 /// Merges the reads of one stage into those of the pass.
 fn join(all: &mut Reflection, one: &Reflection) {
     all.uniforms.insert(one.uniforms);
@@ -93,6 +100,8 @@ fn join(all: &mut Reflection, one: &Reflection) {
         all.texture |= one.texture;
         all.sampler |= one.sampler;
         all.mips |= one.mips;
+        all.texels = all.texels.joined(one.texels);
+        all.components |= one.components;
     }
     all.discards |= one.discards;
     all.geometry |= one.geometry;

@@ -8,7 +8,7 @@ use super::{
     pipelines::{MeshState, PipelineOrder, StagePipeline},
     program::{BoundChannel, CompiledDraw, DrawBody, FillProgram, FilterMode, Meshes},
 };
-use eddy_glsl::{MAX_CHANNELS, Reflection, interface};
+use eddy_glsl::{MAX_CHANNELS, Reflection, interface, opt::specialise::Specialisable};
 use eddy_gpu::Binding;
 use eddy_graph::{Draw, FramePlan};
 use eddy_project::{Body, Camera, FillKind, Pass};
@@ -104,6 +104,7 @@ enum BodyDraft {
 struct ProgramDraft {
     pass: eddy_project::PassName,
     reflection: Reflection,
+    specialisable: Vec<Specialisable>,
     channels: [BoundChannel; MAX_CHANNELS],
     body: BodyDraft,
     orders: Vec<PipelineOrder>,
@@ -119,6 +120,9 @@ impl ProgramDraft {
     ) -> Self {
         let CompiledPass { programs, reflection, .. } = compiled;
         let channel_group = channel_bindings(&channels);
+        let stages = programs.iter().flat_map(CompiledProgram::stages);
+        let specialisable =
+            stages.map(|stage| stage.specialisable.clone()).collect::<Option<Vec<_>>>().unwrap_or_default();
         let order = |(n, program): (usize, CompiledProgram)| PipelineOrder {
             label: pass.id.title(),
             groups: [uniform_bindings(&program, &reflection), channel_group.clone()],
@@ -130,11 +134,11 @@ impl ProgramDraft {
             program,
         };
         let orders = programs.into_iter().enumerate().map(order).collect();
-        Self { pass: pass.id.clone(), orders, reflection, channels, body }
+        Self { pass: pass.id.clone(), orders, reflection, specialisable, channels, body }
     }
 
     fn finish(self, made: &mut impl Iterator<Item = Arc<StagePipeline>>, meshes: &mut usize) -> CompiledDraw {
-        let Self { pass, reflection, channels, body, .. } = self;
+        let Self { pass, reflection, specialisable, channels, body, .. } = self;
         let mut next = || made.next().expect("a pipeline was made for each order");
         CompiledDraw {
             id: pass,
@@ -153,6 +157,7 @@ impl ProgramDraft {
             boundary: None,
             uniforms: reflection.uniforms,
             custom_uniforms: reflection.custom_uniforms,
+            specialisable,
         }
     }
 }

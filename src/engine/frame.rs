@@ -1,11 +1,18 @@
 //! A frame: the loop that executes the operations of a [`Schedule`](eddy_graph::Schedule).
 
 use super::{
-    EngineError, FrameInputs, FrameStats, PassInputs, PassTime, Program, display::Display, host, inspect::Capture,
-    running::Running, shared::Shared, sound, uniforms,
+    EngineError, FrameInputs, FrameStats, PassInputs, PassTime, Program,
+    display::Display,
+    host,
+    inspect::Capture,
+    resting,
+    running::Running,
+    shared::Shared,
+    sound,
+    uniforms::{self, UniformReads},
 };
 use eddy_gpu::Gpu;
-use eddy_graph::{FrameOp, FrameState, Lap, Purpose, SlicePart, SliceTimes};
+use eddy_graph::{Dependencies, FrameOp, FrameState, Lap, Purpose, SlicePart, SliceTimes};
 use eddy_project::{PassName, Region};
 use std::sync::atomic::Ordering;
 
@@ -78,10 +85,13 @@ impl Running {
         self.program.externals.iter_mut().for_each(|external| external.update(&shared.gpu, inputs));
         self.set_uniforms(&shared.gpu, inputs);
         // The inputs are the same at every step.
-        let inputs: Vec<Vec<u8>> = (0..self.program.draws.len()).map(|index| self.inputs_of(index)).collect();
+        self.resting.update(&self.program, self.uniforms.custom_uniforms());
+        let (dependencies, inputs): (Vec<_>, Vec<_>) =
+            (0..self.program.draws.len()).map(|index| self.inputs_of(index)).unzip();
         let state = FrameState {
             canvas: self.canvas,
             off: &off,
+            dependencies: &dependencies,
             inputs: &inputs,
             lasting: &self.lasting,
             slices: self.slices.as_ref(),
@@ -242,17 +252,29 @@ impl Running {
         self.uniforms.write(gpu);
     }
 
-    /// Returns all inputs of a draw other than targets; for [`eddy_graph::Changes::must_draw`].
-    fn inputs_of(&self, index: usize) -> Vec<u8> {
+    /// Returns what a draw depends on in this frame, and all its inputs other than targets; for
+    /// [`eddy_graph::Changes::must_draw`].
+    fn inputs_of(&self, index: usize) -> (Dependencies, Vec<u8>) {
         let (compiled, draw) = (&self.program.draws[index], &self.program.plan.draws[index]);
+        let resting = self.resting.reads(index).filter(|_| resting::is_ordinary(&self.uniforms.uniform_block(index)));
+        let (dependencies, reads) = match resting {
+            Some(resting) => (resting.dependencies, resting.uniforms),
+            None => (draw.dependencies(), UniformReads::of(compiled)),
+        };
         let mut read = Vec::new();
-        if draw.is_cacheable {
-            self.uniforms.add_read_by(index, compiled, &mut read);
-            for external in compiled.channels.iter().filter_map(|channel| channel.external.as_ref()) {
-                read.extend(self.program.externals[external.index].version.to_le_bytes());
+        if dependencies.is_cacheable {
+            // Bytes of different sets are never compared.
+            read.push(resting.is_some().into());
+            read.extend(reads.uniforms.bits().to_le_bytes());
+            self.uniforms.add_read_by(index, compiled, reads, &mut read);
+            let externals = compiled.channels.iter().zip(dependencies.channels);
+            for (channel, _) in externals.filter(|(_, is_read)| *is_read) {
+                if let Some(external) = &channel.external {
+                    read.extend(self.program.externals[external.index].version.to_le_bytes());
+                }
             }
         }
-        read
+        (dependencies, read)
     }
 }
 

@@ -30,6 +30,7 @@ mod moving;
 mod pipelines;
 mod preamble;
 mod program;
+mod resting;
 mod results;
 mod run;
 mod running;

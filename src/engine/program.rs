@@ -5,7 +5,7 @@ use super::{
     mesh_instance::MeshInstance,
     pipelines::StagePipeline,
 };
-use eddy_glsl::{CustomUniformSet, MAX_CHANNELS, UniformSet};
+use eddy_glsl::{CustomUniformSet, MAX_CHANNELS, UniformSet, opt::specialise::Specialisable};
 use eddy_gpu::Texture;
 use eddy_graph::{Draw, FramePlan};
 use eddy_project::{Camera, CustomUniform, CustomUniformValues, Dialect, PassName, PassSize};
@@ -26,6 +26,8 @@ pub struct Program {
     pub(super) custom_uniform_values: CustomUniformValues,
     /// The program that the texts are written for.
     pub(super) dialect: Dialect,
+    /// Draws whose inputs have not changed are left out.
+    pub(super) skips: bool,
 }
 
 /// The pipelines of one draw and the bindings of its channels.
@@ -42,6 +44,8 @@ pub(super) struct CompiledDraw {
     /// The uniforms that it reads: Shadertoy's, and the author's own by their slots.
     pub uniforms: UniformSet,
     pub custom_uniforms: CustomUniformSet,
+    /// All stages, for finding out what it reads at given values of uniforms; empty if that is not possible.
+    pub specialisable: Vec<Specialisable>,
 }
 
 /// The triangle or the meshes of a draw.

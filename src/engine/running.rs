@@ -6,6 +6,7 @@ use super::{
     custom_uniforms,
     frame::Unfinished,
     program::Program,
+    resting::Resting,
     shared::Shared,
     targets::{NewTargets, Target},
     uniforms::{self, Uniforms},
@@ -24,6 +25,8 @@ pub(super) struct Running {
     pub bindings: Bindings,
     pub uniforms: Uniforms,
     pub changes: Changes,
+    /// The reads of draws while custom uniforms keep their values.
+    pub resting: Resting,
     /// For each draw, whether its targets have their contents before frame 0 because its condition is false.
     pub is_blank: Vec<bool>,
     /// Measures the passes, if enabled and supported.
@@ -116,6 +119,7 @@ impl Running {
             bindings: Bindings::default(),
             uniforms: Uniforms::new(&shared.gpu, &program),
             changes: Changes::new(&program.plan),
+            resting: Resting::default(),
             is_blank: Vec::new(),
             timer: None,
             steps_drawn: Vec::new(),

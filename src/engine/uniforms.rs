@@ -32,6 +32,21 @@ pub(super) struct Uniforms {
     own: usize,
 }
 
+/// The uniforms that a draw reads besides custom uniforms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct UniformReads {
+    pub uniforms: UniformSet,
+    /// It reads matrices of meshes or the camera.
+    pub geometry: bool,
+}
+
+impl UniformReads {
+    /// Returns those that a draw may read whatever the values of custom uniforms.
+    pub(crate) fn of(draw: &CompiledDraw) -> Self {
+        Self { uniforms: draw.uniforms, geometry: draw.reads_geometry }
+    }
+}
+
 /// Blocks of one size, [`STRIDE`] apart.
 struct Blocks {
     buffer: wgpu::Buffer,
@@ -162,19 +177,20 @@ impl Uniforms {
         &self.custom_uniform_slots
     }
 
-    /// Appends exactly the uniforms that draw `index` reads: equal bytes mean equal values.
-    pub(crate) fn add_read_by(&self, index: usize, draw: &CompiledDraw, read: &mut Vec<u8>) {
+    /// Appends exactly the uniforms that draw `index` reads: equal bytes mean equal values. Of Shadertoy's uniforms and
+    /// the matrices of meshes, only those in `reads` are appended.
+    pub(crate) fn add_read_by(&self, index: usize, draw: &CompiledDraw, reads: UniformReads, read: &mut Vec<u8>) {
         let block = self.blocks.block(self.first[index]);
-        for range in places(draw.uniforms) {
+        for range in places(reads.uniforms) {
             read.extend_from_slice(&block[range]);
         }
         for &slot in &draw.custom_uniforms {
             read.extend_from_slice(bytemuck::cast_slice(&self.custom_uniform_slots[usize::from(slot)]));
         }
         if let Some(boundary) = &draw.boundary {
-            self.add_read_by(index, &boundary.compiled, read);
+            self.add_read_by(index, &boundary.compiled, UniformReads::of(&boundary.compiled), read);
         }
-        if draw.reads_geometry {
+        if reads.geometry {
             draw.body.geometry_blocks().for_each(|block| read.extend_from_slice(self.meshes.block(block)));
         }
     }

@@ -105,6 +105,10 @@ pub(super) fn compile_seen(
     let lower::Lowered { mut program, mut reflection, .. } =
         lower::lower(&checked, source, options, interface, probed, lower::Marks::default());
     opt::optimise(&mut program, source.driver.disabled_optimisations, &mut seen);
+    let specialisable = opt::specialise::Specialisable::new(&program).filter(|_| !source.kind.is_plain());
+    for (channel, read) in reflection.channels.iter_mut().zip(opt::specialise::Reads::of(&program).channels) {
+        (channel.texels, channel.components) = (read.texels, read.components);
+    }
     emit::work_arounds::apply(&mut program, source);
     ir::verify::assert_kept(&program, "work-arounds");
     seen("work-arounds", &program);
@@ -120,6 +124,7 @@ pub(super) fn compile_seen(
         custom_uniform_bytes,
         initialized_arrays,
         inlined_size,
+        specialisable,
         diagnostics,
     };
     // wgpu validates every module that it receives.
@@ -178,6 +183,8 @@ pub struct Compiled {
     pub initialized_arrays: Option<u32>,
     /// Statements of the program with all calls inlined, which is what drivers compile.
     pub inlined_size: u64,
+    /// For finding out what it reads at given values of custom uniforms; `None` if it is very large or a plain shader.
+    pub specialisable: Option<opt::specialise::Specialisable>,
     /// Warnings and notes; never an error.
     pub diagnostics: Vec<Diagnostic>,
 }

@@ -156,7 +156,7 @@ pub use plain::{
 };
 pub use preamble::Preamble;
 pub use probe::{Probe, ProbedExpression, probe_places, probed};
-pub use reflection::{ChannelUse, CustomUniformSet, Reflection, UniformSet};
+pub use reflection::{ChannelUse, CustomUniformSet, Reflection, TexelUse, UniformSet};
 pub use source::{
     Alpha, ChannelKind, CustomUniform, CustomUniformKind, Dialect, Include, MAX_CHANNELS, NamedSampler, PassKind,
     PassSource, SLOTS, Text, UniformSource, UniformValue, UntypedValue, Version,

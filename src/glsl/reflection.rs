@@ -1,6 +1,6 @@
 //! The resources that a pass reads from its entry point. `graph` plans with it: what is not read need not be produced.
 
-use crate::source::MAX_CHANNELS;
+use crate::{builtins::Uniform, source::MAX_CHANNELS};
 
 bitflags::bitflags! {
     /// A set of Shadertoy's uniforms, in the order of the uniform block.
@@ -22,8 +22,56 @@ bitflags::bitflags! {
     }
 }
 
+impl UniformSet {
+    /// Returns the flag of a uniform; `None` for those of the geometry block.
+    pub(crate) fn of(uniform: Uniform) -> Option<Self> {
+        Some(match uniform {
+            Uniform::Resolution => Self::RESOLUTION,
+            Uniform::Time => Self::TIME,
+            Uniform::Mouse => Self::MOUSE,
+            Uniform::Date => Self::DATE,
+            Uniform::TimeDelta => Self::TIME_DELTA,
+            Uniform::FrameRate => Self::FRAME_RATE,
+            Uniform::SampleRate => Self::SAMPLE_RATE,
+            Uniform::Frame => Self::FRAME,
+            Uniform::ChannelTime => Self::CHANNEL_TIME,
+            Uniform::ChannelResolution => Self::CHANNEL_RESOLUTION,
+            Uniform::TimeOffset => Self::TIME_OFFSET,
+            Uniform::SampleOffset => Self::SAMPLE_OFFSET,
+            Uniform::ChannelLoaded => Self::CHANNEL_LOADED,
+            Uniform::Model | Uniform::View | Uniform::Projection | Uniform::NormalMatrix | Uniform::CameraPosition => {
+                return None;
+            }
+        })
+    }
+}
+
 /// The custom uniforms as a set of their slots.
 pub type CustomUniformSet = std::collections::BTreeSet<u16>;
+
+/// The texels of a channel that a pass reads.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum TexelUse {
+    /// None: at most the size of the texture is asked.
+    #[default]
+    None,
+    /// At most this number, at constant coordinates.
+    Fixed(u32),
+    /// Any of them.
+    Any,
+}
+
+impl TexelUse {
+    /// Returns the texels that one of two stages reads.
+    #[must_use]
+    pub fn joined(self, other: TexelUse) -> TexelUse {
+        match (self, other) {
+            (TexelUse::None, other) | (other, TexelUse::None) => other,
+            (TexelUse::Fixed(a), TexelUse::Fixed(b)) => TexelUse::Fixed(a.saturating_add(b)),
+            _ => TexelUse::Any,
+        }
+    }
+}
 
 /// The ways in which a pass reads a channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -36,6 +84,10 @@ pub struct ChannelUse {
     /// or a fetch or size query of a level not known to be 0. If false, the planner may leave out the mips even if the
     /// sampler requests them.
     pub mips: bool,
+    /// The texels that are read.
+    pub texels: TexelUse,
+    /// The components of texels that some operation uses, one bit each from red on.
+    pub components: u8,
 }
 
 impl ChannelUse {

@@ -28,7 +28,11 @@ impl FramePlan {
         }
         let is_read =
             |source: &TexelSource| *source == TexelSource::Target { index: target, when: ReadTiming::LastFrame };
-        let is_read = self.draws.iter().flat_map(|draw| draw.reads.iter().flatten()).any(|read| is_read(&read.source));
+        let is_read = self
+            .draws
+            .iter()
+            .flat_map(|draw| draw.reads.iter().flatten())
+            .any(|read| read.reads_texels() && is_read(&read.source));
         if is_read || draw.keeps_content || draw.region.is_some() { Carried::Newest } else { Carried::Nothing }
     }
 
@@ -42,7 +46,7 @@ impl FramePlan {
             if !lasting[reader] {
                 continue;
             }
-            for read in self.draws[reader].reads.iter().flatten() {
+            for read in self.draws[reader].reads.iter().flatten().filter(|read| read.reads_texels()) {
                 let TexelSource::Target { index, when: ReadTiming::ThisFrame } = read.source else { continue };
                 for (earlier, draw) in self.draws[..reader].iter().enumerate() {
                     lasting[earlier] |= draw.targets.contains(&index);

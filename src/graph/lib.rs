@@ -23,7 +23,7 @@ mod traffic;
 pub use carried::Carried;
 pub use changes::Changes;
 pub use plan::effective_sampler;
-pub use plan::{ChannelFacts, Draw, FramePlan, PassFacts, Read, ReadTiming, Run, Target, TexelSource};
+pub use plan::{ChannelFacts, Dependencies, Draw, FramePlan, PassFacts, Read, ReadTiming, Run, Target, TexelSource};
 pub use schedule::{FrameOp, FrameState, Lap, Purpose, Schedule};
 pub use slices::{SlicePart, SliceTimes};
 pub use tiles::{TiledDraw, TilingError};

@@ -14,6 +14,18 @@ pub struct ChannelFacts {
     pub is_read: bool,
     /// Some read may access a mip level other than 0.
     pub reaches_mips: bool,
+    /// The most texels that one draw reads; `None` for any number. With 0 at most the size of the source is asked.
+    pub max_texels: Option<u32>,
+}
+
+impl ChannelFacts {
+    /// Any texel may be read, of any level.
+    pub const ANYTHING: ChannelFacts = ChannelFacts { is_read: true, reaches_mips: true, max_texels: None };
+
+    /// Returns whether the result may depend on a texel, and not only on the size of the source.
+    pub fn reads_texels(&self) -> bool {
+        self.is_read && self.max_texels != Some(0)
+    }
 }
 
 /// The facts about a compiled pass that the planner needs. Conservative: whatever may happen is assumed to happen.
@@ -27,8 +39,7 @@ pub struct PassFacts {
 
 impl PassFacts {
     /// Reads every channel at every level and discards: the assumption for an unknown pass.
-    pub const ANYTHING: PassFacts =
-        PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: true }; MAX_CHANNELS], discards: true };
+    pub const ANYTHING: PassFacts = PassFacts { channels: [ChannelFacts::ANYTHING; MAX_CHANNELS], discards: true };
 }
 
 /// The frame whose picture of a target a read sees.
@@ -66,6 +77,15 @@ pub struct Read {
     pub sampler: Sampler,
     /// Levels beyond 0 may be sampled: the sampler uses them and the source has them.
     pub mips: bool,
+    /// The most texels that one draw reads; `None` for any number, 0 if at most the size is asked.
+    pub max_texels: Option<u32>,
+}
+
+impl Read {
+    /// Returns whether the reader may depend on a texel of the source.
+    pub fn reads_texels(&self) -> bool {
+        self.max_texels != Some(0)
+    }
 }
 
 /// A texture, or a pair of them, that passes draw into or read.
@@ -127,14 +147,53 @@ impl Draw {
         self.targets.clone().chain(self.extra_target)
     }
 
+    /// Returns what decides whether the draw must be executed.
+    pub fn dependencies(&self) -> Dependencies {
+        let reads_texels = |read: &Option<Read>| read.as_ref().is_some_and(Read::reads_texels);
+        Dependencies { channels: self.reads.each_ref().map(reads_texels), is_cacheable: self.is_cacheable }
+    }
+
+    /// Returns the same for frames in which more is known of the pass than when it was planned, such as the values of
+    /// uniforms. The plan must be one that skips passes.
+    pub fn dependencies_with(&self, facts: &PassFacts) -> Dependencies {
+        let mut all = self.dependencies();
+        for (reads_texels, fact) in all.channels.iter_mut().zip(&facts.channels) {
+            *reads_texels &= fact.reads_texels();
+        }
+        let reads_itself = self.reads.iter().zip(all.channels).any(|(read, reads_texels)| match read {
+            Some(Read { source: TexelSource::Target { index, .. }, .. }) => {
+                reads_texels && self.targets.contains(index)
+            }
+            _ => false,
+        });
+        // After a pass that may discard, both textures of a pair matter, and drawing it twice would make them equal.
+        let shows_before = self.keeps_content && self.region.is_none();
+        all.is_cacheable |= !reads_itself && !shows_before;
+        all
+    }
+
     /// Returns the draw for a fill of the pass. It reads none of the pass's inputs, only its own picture if the fill is
     /// one.
     pub fn of_fill(&self, is_picture: bool) -> Draw {
-        let read = is_picture.then_some(Read { source: TexelSource::External, sampler: FILL_SAMPLER, mips: false });
+        let read = is_picture.then_some(Read {
+            source: TexelSource::External,
+            sampler: FILL_SAMPLER,
+            mips: false,
+            max_texels: None,
+        });
         let mut reads = [const { None }; MAX_CHANNELS];
         reads[0] = read;
         Draw { reads, clear: None, keeps_content: true, is_cacheable: false, ..self.clone() }
     }
+}
+
+/// The inputs by which it is decided whether a draw must be executed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Dependencies {
+    /// For each channel, whether the result may depend on its texels.
+    pub channels: [bool; MAX_CHANNELS],
+    /// Equal inputs give equal texels, whatever the target contains.
+    pub is_cacheable: bool,
 }
 
 /// Consecutive draws that are executed in order, `steps` times.
@@ -212,8 +271,9 @@ impl FramePlan {
         for (place, &pass) in drawn.iter().enumerate() {
             let targets = plan.targets(project, &project.passes[pass].id);
             let reads = std::array::from_fn(|channel| {
-                let used = facts[pass].channels[channel].is_read || !skip;
-                used.then(|| plan.read(project, &drawn, place, channel)).flatten()
+                let fact = facts[pass].channels[channel];
+                let read = (fact.is_read || !skip).then(|| plan.read(project, &drawn, place, channel)).flatten();
+                read.map(|read| Read { max_texels: if skip { fact.max_texels } else { None }, ..read })
             });
             let region = project.passes[pass].settings.region;
             // Targets of meshes are always cleared first, with any rules.
@@ -297,7 +357,7 @@ impl FramePlan {
             Some(Input::Pass { id, target }) => self.target_read(project, drawn, place, id, *target),
             Some(Input::Media { .. } | Input::Device(_)) => TexelSource::External,
         };
-        Some(Read { source, sampler: sampler.unwrap_or(Sampler::BUFFER), mips: false })
+        Some(Read { source, sampler: sampler.unwrap_or(Sampler::BUFFER), mips: false, max_texels: None })
     }
 
     fn target_read(
@@ -353,11 +413,9 @@ impl FramePlan {
         }
         for draw in &mut self.draws {
             let own = draw.targets.clone();
-            let reads_itself = draw
-                .reads
-                .iter()
-                .flatten()
-                .any(|r| matches!(r.source, TexelSource::Target { index, .. } if own.contains(&index)));
+            let reads_itself = draw.reads.iter().flatten().any(|r| {
+                r.reads_texels() && matches!(r.source, TexelSource::Target { index, .. } if own.contains(&index))
+            });
             let is_cleared = project.dialect.clear_colour(&project.passes[draw.pass]).is_some();
             let shows_before = facts[draw.pass].discards && !is_cleared;
             draw.is_cacheable = skip && !shows_before && !reads_itself;
@@ -395,7 +453,8 @@ fn reached_from(project: &Project, facts: &[PassFacts], requested: &[PassName]) 
             continue;
         }
         for (slot, channel) in project.passes[pass].bindings.iter() {
-            let is_read = facts[pass].channels.get(slot).is_some_and(|fact| fact.is_read);
+            // A source of which only the size is asked need not be drawn.
+            let is_read = facts[pass].channels.get(slot).is_some_and(ChannelFacts::reads_texels);
             let read = Some(channel).filter(|_| is_read).and_then(|c| c.input.target());
             todo.extend(read.and_then(|(id, _)| index_of(id)));
         }

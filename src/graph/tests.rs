@@ -33,7 +33,10 @@ fn project(passes: Vec<Pass>) -> Project {
 }
 
 fn reads_all() -> PassFacts {
-    PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: true }; MAX_CHANNELS], discards: false }
+    PassFacts {
+        channels: [ChannelFacts { is_read: true, reaches_mips: true, max_texels: None }; MAX_CHANNELS],
+        discards: false,
+    }
 }
 
 fn plan(project: &Project) -> FramePlan {
@@ -266,7 +269,9 @@ fn a_draw_is_skipped_until_one_of_its_transitive_inputs_changes() {
     let mut changes = Changes::new(&plan);
     let frame = |changes: &mut Changes, inputs: [u8; 4]| -> String {
         let due = |(i, draw)| {
-            changes.must_draw(i, draw, &inputs[i..=i]).then(|| project.passes[plan.draws[i].pass].id.title())
+            changes
+                .must_draw(i, draw, &draw.dependencies(), &inputs[i..=i])
+                .then(|| project.passes[plan.draws[i].pass].id.title())
         };
         let titles: Vec<String> = plan.draws.iter().enumerate().filter_map(due).collect();
         titles.iter().map(|t| t.chars().last().unwrap()).collect()
@@ -327,7 +332,7 @@ fn readers_of_any_target_follow_a_scene_that_was_drawn() {
     let mut changes = Changes::new(&plan);
     let mut due = |camera: &[u8]| -> Vec<bool> {
         let inputs = [camera, b"", b""];
-        plan.draws.iter().enumerate().map(|(i, d)| changes.must_draw(i, d, inputs[i])).collect()
+        plan.draws.iter().enumerate().map(|(i, d)| changes.must_draw(i, d, &d.dependencies(), inputs[i])).collect()
     };
     assert_eq!(due(b"here"), [true; 3]);
     assert_eq!(due(b"here"), [false; 3]);
@@ -521,7 +526,7 @@ fn readers_in_any_channel_follow_a_buffer_that_was_drawn() {
         let mut changes = Changes::new(&plan);
         let mut due = |key: &[u8]| -> Vec<bool> {
             let inputs = [key, b""];
-            plan.draws.iter().enumerate().map(|(i, d)| changes.must_draw(i, d, inputs[i])).collect()
+            plan.draws.iter().enumerate().map(|(i, d)| changes.must_draw(i, d, &d.dependencies(), inputs[i])).collect()
         };
         assert_eq!(due(b"up"), [true; 2]);
         assert_eq!((due(b"up"), due(b"down")), (vec![false; 2], vec![true; 2]), "channel {slot}");

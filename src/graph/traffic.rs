@@ -2,6 +2,7 @@
 
 use super::{FramePlan, Target, TexelSource};
 use eddy_texture::TextureShape;
+use std::collections::BTreeMap;
 
 /// The minimum that is moved if everything is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -46,15 +47,18 @@ impl FramePlan {
             let mips = if target.mips { count(size) * target.format.bytes() * 5 / 3 } else { 0 };
             bytes += texels * target.format.bytes() + mips;
         }
-        let mut sources: Vec<usize> = draw.reads.iter().flatten().filter_map(target_of).collect();
-        sources.sort_unstable();
-        sources.dedup();
-        for source in sources {
-            let source = &self.targets[source];
-            let all = count(source.size.of(canvas));
+        // The texels that are read of each source; channels may share one.
+        let mut sources: BTreeMap<usize, u64> = BTreeMap::new();
+        for read in draw.reads.iter().flatten() {
+            let Some(index) = target_of(read) else { continue };
+            let all = count(self.targets[index].size.of(canvas));
             // A part of a pass may need only a part of its inputs.
-            let read = if draw.region.is_some() { all.min(texels) } else { all };
-            bytes += read * source.format.bytes();
+            let most = if draw.region.is_some() { all.min(texels) } else { all };
+            let sum = sources.entry(index).or_default();
+            *sum = most.min(*sum + read.max_texels.map_or(most, u64::from));
+        }
+        for (source, texels) in sources {
+            bytes += texels * self.targets[source].format.bytes();
         }
         Traffic { bytes, texels }
     }

@@ -380,3 +380,48 @@ fn a_comment_prints_the_values_of_a_traced_pixel() {
     let text = b.line("trace p.glsl --pixel 2,1 --size 8x6").expect(0).out;
     assert!(text.contains("Image:4: vec2(sum, i)\n        1  (2.5, 0.0)"), "{text}");
 }
+
+/// Buffer A has a state in four of its texels, of which one component is read; Buffer B repeats its texels, as the driver
+/// cannot know that it does; Buffer C is not read; Image asks only the size of D.
+#[test]
+fn unused_work_is_listed_with_what_it_costs_and_whether_it_is_left_out() {
+    let Some(b) = Bench::with_gpu() else { return };
+    b.image("p/buffer_a.glsl", "fragColor = vec4(iTime);");
+    b.image("p/buffer_b.glsl", "fragColor = vec4(min(iTime, 0.0) + fragCoord, 0.5, 1.0 / 3.0);");
+    b.image("p/buffer_c.glsl", "fragColor = vec4(1.0);");
+    b.image("p/buffer_d.glsl", "fragColor = vec4(iTime);");
+    b.image(
+        "p/image.glsl",
+        "vec4 sum = vec4(0.0); for (int i = 0; i < 4; i++) sum.x += texelFetch(iChannel0, ivec2(clamp(i, 0, 3), 0), 0).x; \
+         fragColor = sum + texelFetch(iChannel1, ivec2(fragCoord), 0) / 8.0 + float(textureSize(iChannel2, 0).x) / 64.0;",
+    );
+    b.write(
+        "p/eddy.toml",
+        "[passes.buffer_a]\n[passes.buffer_b]\n[passes.buffer_c]\n[passes.buffer_d]\n[passes.image]\n\
+         channels.0 = { buffer = \"A\" }\nchannels.1 = { buffer = \"B\" }\nchannels.2 = { buffer = \"D\" }\n\
+         channels.3 = { buffer = \"C\" }\n",
+    );
+    let line = b.line("unused p --size 16x8 --frames 6 --json").expect(0).json().remove(0);
+    let findings = line["findings"].as_array().unwrap();
+    let find = |kind: &str, pass: &str| {
+        let found = findings.iter().find(|f| f["kind"] == kind && f["pass"] == pass);
+        found.unwrap_or_else(|| panic!("{kind} of {pass}: {line:#}"))
+    };
+    let all = 16 * 8 * 16;
+    let (texels, components) = (find("texels", "buffer_a"), find("components", "buffer_a"));
+    assert_eq!((&texels["bytes"], &texels["skipped"]), (&(all - 4 * 16).into(), &false.into()), "{texels}");
+    assert!(texels["message"].as_str().unwrap().contains("the first 4x1"), "{texels}");
+    assert_eq!(components["bytes"], all * 3 / 4, "{components}");
+    assert!(components["message"].as_str().unwrap().contains("green, blue, alpha are read by no pass"), "{components}");
+    let frames = find("frames", "buffer_b");
+    assert!(frames["message"].as_str().unwrap().contains("in 5 of 6 frames") && frames["skipped"] == false, "{frames}");
+    // Thirds have other bits in 16, which 8 bits of the picture do not show.
+    assert_eq!(find("precision", "buffer_b")["bytes"], all / 2);
+    for (kind, pass) in [("pass", "buffer_c"), ("pass", "buffer_d"), ("channel", "image")] {
+        assert_eq!(find(kind, pass)["skipped"], true);
+    }
+    assert!(!findings.iter().any(|f| f["kind"] == "texels" && f["pass"] == "buffer_b"), "{line:#}");
+    let text = b.line("unused p --size 16x8 --frames 2 --no-precision").expect(0).out;
+    assert!(text.contains("left out by Eddy:") && text.contains("Buffer A"), "{text}");
+    assert!(!text.contains("format = \"rgba16f\""), "{text}");
+}

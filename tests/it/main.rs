@@ -101,6 +101,7 @@ mod recovery;
 mod reload;
 mod reopened_pictures;
 mod replaying;
+mod resting;
 mod saved_files;
 mod session;
 mod session_compare;

@@ -160,6 +160,7 @@ fn calls<'a>(command: &str, good: &'a str, bad: &'a str, out: &'a str) -> Vec<Ve
         "compare" => vec![with(&["compare", good, good]), with(&["compare", good, bad])],
         "check" => vec![vec!["check", good, bad], vec!["check", good, "--dump-ir"], vec!["check", "--json", good, bad]],
         "bench" => vec![with(&["bench", good, bad, "--frames", "1"])],
+        "unused" => vec![with(&["unused", good, bad, "--frames", "1"])],
         "lab" => vec![vec!["lab", "--list"], vec!["lab", good, "--out", out]],
         "lab merge" => vec![vec!["lab", "merge", good, "--out", out]],
         "lab precision" => vec![with(&["lab", "precision", good, bad, "--frames", "1"])],
@@ -195,7 +196,7 @@ fn no_command_prints_control_characters_of_a_hostile_project() {
     assert!(names.iter().any(|name| name == "render"), "{names:?}");
     let of_lab = commands(&bench, &["lab"]).into_iter().filter(|name| name != "help");
     names.extend(of_lab.map(|name| format!("lab {name}")));
-    let draws = ["render", "probe", "trace", "compare", "bench", "lab", "doctor"];
+    let draws = ["render", "probe", "trace", "compare", "bench", "unused", "lab", "doctor"];
     let has_gpu = gpu().is_some();
     let mut leaks = Vec::new();
     for name in names {

@@ -156,6 +156,35 @@ impl BenchArgs {
 }
 
 #[derive(Debug, Args)]
+#[command(after_help = PROJECT)]
+pub(super) struct UnusedArgs {
+    #[arg(required = true)]
+    pub project: Vec<String>,
+    /// Number of frames to look at [default: 60; with --replay all recorded frames]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1 << 30))]
+    pub frames: Option<u32>,
+    #[command(flatten)]
+    pub run: RunArgs,
+    /// Do not try formats of 16 bits, which draws the frames once more for each pass
+    #[arg(long)]
+    pub no_precision: bool,
+    /// Print one JSON object per line instead of a list
+    #[arg(long)]
+    pub json: bool,
+}
+
+impl UnusedArgs {
+    pub(super) fn frames(&self) -> u32 {
+        self.frames.or(self.run.recorded()).unwrap_or(60)
+    }
+
+    /// Returns the inputs of the frames, or an error message if the options contradict each other.
+    pub(super) fn inputs(&self) -> Result<ScriptedInputs, String> {
+        self.run.inputs_of(self.frames())
+    }
+}
+
+#[derive(Debug, Args)]
 pub(super) struct ImportArgs {
     #[arg(value_name = "FILE.json")]
     pub file: PathBuf,

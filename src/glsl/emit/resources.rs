@@ -59,24 +59,10 @@ const MEMBERS: [(&str, u32, Member); 15] = members! {
 
 /// Returns the index of a uniform in [`MEMBERS`], and its flag in the reflection.
 pub(super) fn uniform(uniform: Uniform) -> (u32, UniformSet) {
-    match uniform {
-        Uniform::Resolution => (0, UniformSet::RESOLUTION),
-        Uniform::Time => (1, UniformSet::TIME),
-        Uniform::Mouse => (2, UniformSet::MOUSE),
-        Uniform::Date => (3, UniformSet::DATE),
-        Uniform::TimeDelta => (4, UniformSet::TIME_DELTA),
-        Uniform::FrameRate => (5, UniformSet::FRAME_RATE),
-        Uniform::SampleRate => (6, UniformSet::SAMPLE_RATE),
-        Uniform::Frame => (7, UniformSet::FRAME),
-        Uniform::ChannelTime => (8, UniformSet::CHANNEL_TIME),
-        Uniform::ChannelResolution => (9, UniformSet::CHANNEL_RESOLUTION),
-        Uniform::TimeOffset => (10, UniformSet::TIME_OFFSET),
-        Uniform::SampleOffset => (11, UniformSet::SAMPLE_OFFSET),
-        Uniform::ChannelLoaded => (13, UniformSet::CHANNEL_LOADED),
-        Uniform::Model | Uniform::View | Uniform::Projection | Uniform::NormalMatrix | Uniform::CameraPosition => {
-            unreachable!("they lie in the geometry block")
-        }
-    }
+    let flag = UniformSet::of(uniform).expect("a uniform of this block");
+    // The flags are in the order of the members, between which is the cube's face.
+    let index = flag.bits().trailing_zeros();
+    (if index < CUBE_FACE { index } else { index + 1 }, flag)
 }
 
 /// The index of the cube face in [`MEMBERS`].

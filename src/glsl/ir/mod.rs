@@ -216,6 +216,20 @@ pub enum Stmt {
 }
 
 impl Stmt {
+    /// Visits the operands of the statement itself, in order, except those of the op of a `Let`.
+    pub fn operands(&self, mut visit: impl FnMut(Value)) {
+        match self {
+            Stmt::Store { place, value } => {
+                visit(*place);
+                visit(*value);
+            }
+            Stmt::If { condition: value, .. } | Stmt::Switch { selector: value, .. } => visit(*value),
+            Stmt::Loop { break_if: value, .. } | Stmt::Return(value) => value.iter().copied().for_each(visit),
+            Stmt::Output(parts) => parts.iter().for_each(|(_, value)| visit(*value)),
+            Stmt::Let(_) | Stmt::Break | Stmt::Continue | Stmt::Discard => {}
+        }
+    }
+
     /// Visits the operands of the statement itself, in order; each may be changed. The operands of the op of a `Let`
     /// are not visited.
     pub fn operands_mut(&mut self, mut visit: impl FnMut(&mut Value)) {

@@ -10,6 +10,7 @@ mod identity;
 mod inline;
 mod ranges;
 mod scalarize;
+pub mod specialise;
 #[cfg(test)]
 mod tests;
 mod unroll;

@@ -1,6 +1,6 @@
 //! A frame as a list of operations, decided without a device. An engine executes the list in one loop.
 
-use super::{Changes, Draw, FramePlan, SliceTimes};
+use super::{Changes, Dependencies, Draw, FramePlan, SliceTimes};
 use eddy_project::Region;
 
 /// The purpose of drawing a frame, which determines its operations.
@@ -90,7 +90,10 @@ pub struct FrameState<'a> {
     pub canvas: (u32, u32),
     /// For each draw, whether its condition ([`Draw::when`]) is false.
     pub off: &'a [bool],
-    /// For each draw, what it reads besides targets, in any form for which equality means equal inputs.
+    /// For each draw, what it depends on in this frame: [`Draw::dependencies`], or less.
+    pub dependencies: &'a [Dependencies],
+    /// For each draw, what it depends on besides targets, in any form for which equality means equal inputs and equal
+    /// dependencies.
     pub inputs: &'a [Vec<u8>],
     /// For each draw, whether later frames depend on it ([`FramePlan::lasting_draws`]).
     pub lasting: &'a [bool],
@@ -208,7 +211,7 @@ impl FramePlan {
         if texels == 0 {
             return;
         }
-        if !changes.must_draw(index, draw, &state.inputs[index]) {
+        if !changes.must_draw(index, draw, &state.dependencies[index], &state.inputs[index]) {
             let bytes: u64 = draw.all_targets().map(|target| self.targets[target].format.bytes()).sum();
             schedule.cached += 1;
             schedule.cached_bytes += texels * bytes;

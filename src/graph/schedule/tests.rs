@@ -24,8 +24,10 @@ fn project() -> Project {
 }
 
 fn plan(project: &Project) -> FramePlan {
-    let reads =
-        PassFacts { channels: [ChannelFacts { is_read: true, reaches_mips: false }; MAX_CHANNELS], discards: false };
+    let reads = PassFacts {
+        channels: [ChannelFacts { reaches_mips: false, ..ChannelFacts::ANYTHING }; MAX_CHANNELS],
+        discards: false,
+    };
     FramePlan::new(project, &vec![reads; project.passes.len()], &[], true)
 }
 
@@ -47,7 +49,9 @@ impl Frames {
     fn next(&mut self, purpose: Purpose) -> Schedule {
         let lasting = self.plan.lasting_draws();
         let slices = self.slices.as_ref();
-        let state = FrameState { canvas: (8, 4), off: &self.off, inputs: &self.inputs, lasting: &lasting, slices };
+        let dependencies: Vec<_> = self.plan.draws.iter().map(Draw::dependencies).collect();
+        let (off, inputs) = (&self.off, &self.inputs);
+        let state = FrameState { canvas: (8, 4), off, dependencies: &dependencies, inputs, lasting: &lasting, slices };
         self.plan.schedule(&state, &mut self.changes, purpose)
     }
 }
