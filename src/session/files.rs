@@ -83,7 +83,7 @@ impl Session {
         }
     }
 
-    /// Quits without a question: nobody may be there to answer it.
+    /// Quits without a question, which might never be answered.
     fn terminate(&mut self) {
         self.open.end_recording();
         self.cancel_film();

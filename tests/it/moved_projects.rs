@@ -61,7 +61,6 @@ fn a_deleted_folder_is_saved_elsewhere_or_written_completely() {
     assert!(asks_for_a_place(&mut stage) && !stage.path("multi").exists() && stage.red() == 102);
     for folder in ["multi", "elsewhere"] {
         stage.session.apply(FileCommand::SaveAs(stage.path(folder)));
-        eprintln!("{:?} {:?}", stage.session.project().includes, stage.session.notices());
         assert_eq!(stage.read(&format!("{folder}/lib/noise.glsl")), "#define NOISE 0.4\n", "{folder}");
         assert_eq!(stage.read(&format!("{folder}/image.glsl")), IMAGE, "{folder}");
     }

@@ -1,4 +1,4 @@
-//! The place of the open project, and where it is after somebody renamed it.
+//! The place of the open project, and its new place after it was renamed.
 
 use eddy_project::Origin;
 use std::{

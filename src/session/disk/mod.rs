@@ -34,7 +34,7 @@ pub(super) struct DiskSync {
     unsettled_since: Option<Instant>,
     /// The last message about such files, so that it is reported once.
     reported: Option<String>,
-    /// Where the project was last read or written.
+    /// The place at which the project was last read or written.
     home: Option<Home>,
     /// `eddy.toml` as it was last read or written.
     manifest: Option<Vec<u8>>,

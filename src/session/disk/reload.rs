@@ -141,6 +141,10 @@ impl OpenProject {
     /// Takes the included files as they were read for an edit of the texts.
     pub(crate) fn take_includes(&mut self, includes: Vec<Included>, edit: u64) {
         self.compile.includes_read = edit;
+        // Those of a project that was deleted stay as they were read: they are saved with it.
+        if !self.disk.is_home_there(&self.documents) {
+            return;
+        }
         // An editor that shows one must reload it.
         self.host.text_generation += u64::from(self.documents.take_includes(includes));
     }
