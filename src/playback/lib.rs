@@ -10,6 +10,7 @@ pub mod assertion;
 pub mod capture;
 pub mod checkpoint;
 pub mod comparing;
+pub mod counting;
 pub mod date;
 pub mod frames;
 pub mod mouse;
