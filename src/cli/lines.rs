@@ -123,7 +123,7 @@ pub(super) fn measure(
     if let Some(picture) = &args.pass {
         opening = opening.pass(&picture.pass);
     }
-    let Opened { project, mut offline, media } = opening.open(machine, report)?;
+    let Opened { project, mut offline, .. } = opening.open(machine, report)?;
     let frame = args.at.unwrap_or(0);
     for _ in 0..frame {
         offline.advance()?;
@@ -139,7 +139,7 @@ pub(super) fn measure(
     for pass in drawn.iter().filter(is_wanted) {
         let of_pass = |frame: &Vec<PassTime>| Some(frame.iter().find(|time| time.pass == *pass)?.gpu_millis);
         let ms = median(times.iter().filter_map(of_pass).collect());
-        let counted = offline.counting(&project, &media, pass);
+        let counted = offline.counting(&project, pass);
         let counted = counted.and_then(|program| Ok(offline.count(&program, &prices)?));
         let (uncounted, counts) = match counted {
             Ok(counts) => (None, Some(Counts::new(&project, &counts, args))),

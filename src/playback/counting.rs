@@ -5,7 +5,6 @@ use eddy_engine::{
     BuildError, DrawFor, Engine, EngineError, PassTime,
     counts::{CountingProgram, PassCounts, Prices},
 };
-use eddy_media::MediaSet;
 use eddy_project::{PassName, Project};
 use std::time::Instant;
 
@@ -14,10 +13,9 @@ impl Offline {
     pub fn counting(
         &self,
         project: &Project,
-        media: &MediaSet,
         pass: &PassName,
     ) -> Result<CountingProgram, BuildError> {
-        self.engine()?.counting(project, media, pass)
+        self.engine()?.counting(project, pass)
     }
 
     /// Counts what a pass executed in the newest frame; see [`Engine::count`].

@@ -16,6 +16,7 @@ pub mod frames;
 pub mod mouse;
 pub mod npy;
 pub mod offline;
+pub mod prices;
 pub mod recording;
 pub mod revision;
 pub mod run;

@@ -18,6 +18,7 @@ mod compile;
 mod controls;
 mod conversion;
 mod costs;
+mod counts;
 mod debounce;
 mod devices;
 mod disk;
@@ -67,6 +68,7 @@ pub mod view;
 pub use analysis::TabAnalysis;
 pub use audio::{MicrophoneView, OutputView};
 pub use audit::{AuditMap, WorstPixel};
+pub use counts::{CountedPass, CountsView};
 pub use command::{
     Answer, CameraCommand, CanvasCommand, CaptureCommand, Command, ControlCommand, DiffLine, EditCommand, FileCommand,
     FilmCommand, HaltCommand, InputCommand, NoticeCommand, PendingAction, Question, Recovered, RecoveredTab, Request,

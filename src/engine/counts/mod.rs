@@ -17,7 +17,8 @@ pub use lines::{LineCounts, LoopCounts};
 pub use prices::{Prices, TextureFilter};
 pub use program::CountingProgram;
 
-use eddy_glsl::count::CountTable;
+pub use eddy_glsl::count::{CountTable, CountedBlock, Line, OpClass};
+
 use eddy_project::PassName;
 use std::sync::Arc;
 
@@ -105,7 +106,7 @@ impl PassCounts {
 
     /// Returns the number of texture reads of a pixel, in the mean.
     pub fn texture_reads(&self) -> f64 {
-        let reads = |block: &eddy_glsl::count::CountedBlock| -> u64 {
+        let reads = |block: &CountedBlock| -> u64 {
             block.work.iter().filter(|work| work.class.is_texture_read()).map(|work| u64::from(work.count)).sum()
         };
         let all: u64 = self.table.blocks.iter().zip(&self.runs).map(|(block, runs)| runs * reads(block)).sum();

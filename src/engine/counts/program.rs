@@ -3,7 +3,7 @@
 use crate::{
     BuildError, Engine, EngineError, Sources,
     build::driver,
-    channels::{channel_bindings, filter_mode},
+    channels::channel_bindings,
     compile::PassOptions,
     compiled::CompiledProgram,
     draft::uniform_bindings,
@@ -12,7 +12,6 @@ use crate::{
 };
 use eddy_glsl::count::CountTable;
 use eddy_gpu::CounterTargets;
-use eddy_media::MediaSet;
 use eddy_project::{PassName, Project};
 use std::{ops::Range, sync::Arc};
 
@@ -45,13 +44,11 @@ impl CountingProgram {
 }
 
 impl Engine {
-    /// Compiles the counting variants of a pass of the running program, which `project` was built to with `media`. Takes
-    /// as long as compiling the pass several times: a variant has at most four counters for each target that the device
+    /// Compiles the counting variants of a pass of the running program, which was built of `project`. Takes as long as compiling the pass several times: a variant has at most four counters for each target that the device
     /// has. Fails for a pass that draws meshes.
     pub fn counting(
         &self,
         project: &Project,
-        media: &MediaSet,
         pass: &PassName,
     ) -> Result<CountingProgram, BuildError> {
         let none = || EngineError::NoSuchPass(pass.title());
@@ -67,7 +64,7 @@ impl Engine {
         }
         let gpu = self.gpu();
         let options = PassOptions {
-            bilinear_in_shader: filter_mode(gpu, project, media, index).map(|mode| mode == FilterMode::Shader),
+            bilinear_in_shader: running.program.draws[at].channels.each_ref().map(|channel| channel.filter_mode == FilterMode::Shader),
             driver: driver(gpu, own),
             ..PassOptions::default()
         };
