@@ -10,10 +10,10 @@ use super::{
 use crate::{
     engine::{
         BuildError, EngineError, PassTime,
-        counts::{LineCounts, LoopCounts, PassCounts, Prices},
+        counts::{LineCounts, LoopCounts, PassCounts},
     },
     glsl::count::Line,
-    playback::{median, script::ScriptedInputs},
+    playback::{median, prices, script::ScriptedInputs},
     project::{PassName, Project},
 };
 use serde::Serialize;
@@ -134,7 +134,8 @@ pub(super) fn measure(
     let (size, device) = (engine.size(), engine.gpu().describe());
     let drawn: Vec<PassName> = engine.pass_costs(&project).into_iter().map(|cost| cost.pass).collect();
     let is_wanted = |pass: &&PassName| args.pass.as_ref().is_none_or(|picture| picture.pass == **pass);
-    let prices = Prices::default();
+    let cache_dir = dirs::cache_dir().map(|dir| dir.join("eddy"));
+    let prices = prices::of_device(engine.gpu(), cache_dir.as_deref())?;
     let mut passes = Vec::new();
     for pass in drawn.iter().filter(is_wanted) {
         let of_pass = |frame: &Vec<PassTime>| Some(frame.iter().find(|time| time.pass == *pass)?.gpu_millis);

@@ -47,7 +47,8 @@ fn part(cost: f32, (least, most): (f32, f32)) -> f32 {
     if most <= least || cost <= 0.0 {
         return 0.0;
     }
-    let part = if most > 8.0 * least { (cost / least).ln() / (most / least).ln() } else { (cost - least) / (most - least) };
+    let part =
+        if most > 8.0 * least { (cost / least).ln() / (most / least).ln() } else { (cost - least) / (most - least) };
     part.clamp(0.0, 1.0)
 }
 
@@ -137,7 +138,8 @@ fn card(ui: &mut Ui, session: &Session, view: &CountsView<'_>, under: Option<[f3
         const STEPS: u32 = 32;
         for step in 0..STEPS {
             let width = rect.width() / STEPS as f32;
-            let place = Rect::from_min_size(pos2(rect.left() + width * step as f32, rect.top()), vec2(width + 0.5, 10.0));
+            let place =
+                Rect::from_min_size(pos2(rect.left() + width * step as f32, rect.top()), vec2(width + 0.5, 10.0));
             ui.painter().rect_filled(place, 0.0, color((step as f32 + 0.5) / STEPS as f32));
         }
         ui.colored_label(p.weak, nanos(most));
@@ -149,7 +151,9 @@ fn card(ui: &mut Ui, session: &Session, view: &CountsView<'_>, under: Option<[f3
     });
     let words = match at.and_then(|at| Some((at, counts.cost_at(at, 0)?))) {
         Some(((x, y), cost)) => format!("{x},{y}: {}", nanos(cost)),
-        None => format!("Divergence {:.2}, {:.1} texture reads per pixel", counts.mean_divergence(), counts.texture_reads()),
+        None => {
+            format!("Divergence {:.2}, {:.1} texture reads per pixel", counts.mean_divergence(), counts.texture_reads())
+        }
     };
     ui.colored_label(p.text, words);
     if let Some((x, y, 0)) = counts.costliest() {

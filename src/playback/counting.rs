@@ -10,11 +10,7 @@ use std::time::Instant;
 
 impl Offline {
     /// Compiles the counting variants of a pass of the program that was built of `project`; see [`Engine::counting`].
-    pub fn counting(
-        &self,
-        project: &Project,
-        pass: &PassName,
-    ) -> Result<CountingProgram, BuildError> {
+    pub fn counting(&self, project: &Project, pass: &PassName) -> Result<CountingProgram, BuildError> {
         self.engine()?.counting(project, pass)
     }
 

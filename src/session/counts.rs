@@ -7,7 +7,7 @@ use super::{
 };
 use eddy_engine::{
     BuildError,
-    counts::{LineCounts, LoopCounts, PassCounts, Prices},
+    counts::{LineCounts, LoopCounts, PassCounts},
 };
 use eddy_playback::prices;
 use eddy_project::{PassName, Project};
@@ -129,13 +129,14 @@ impl RenderTask for Count {
     fn run(self, renderer: &mut Renderer) -> Self::Output {
         let Self { project, pass, cache_dir } = self;
         let engine = renderer.engine_mut();
-        let prices: Prices = prices::of_device(engine.gpu(), cache_dir.as_deref()).map_err(|e| e.to_string())?;
-        let program = engine.counting(&project, &pass).map_err(|error| match error {
+        let words = |error: BuildError| match error {
             BuildError::Diagnostics { diagnostics, .. } => {
                 diagnostics.first().map_or_else(String::new, |error| error.message.clone())
             }
             BuildError::Engine(error) => error.to_string(),
-        })?;
+        };
+        let prices = prices::of_device(engine.gpu(), cache_dir.as_deref()).map_err(words)?;
+        let program = engine.counting(&project, &pass).map_err(words)?;
         let counts = engine.count(&program, &prices, &mut || false).map_err(|error| error.to_string())?;
         Ok(CountedPass { project, lines: counts.lines(), loops: counts.loops(), counts })
     }

@@ -68,7 +68,6 @@ pub mod view;
 pub use analysis::TabAnalysis;
 pub use audio::{MicrophoneView, OutputView};
 pub use audit::{AuditMap, WorstPixel};
-pub use counts::{CountedPass, CountsView};
 pub use command::{
     Answer, CameraCommand, CanvasCommand, CaptureCommand, Command, ControlCommand, DiffLine, EditCommand, FileCommand,
     FilmCommand, HaltCommand, InputCommand, NoticeCommand, PendingAction, Question, Recovered, RecoveredTab, Request,
@@ -76,6 +75,7 @@ pub use command::{
 };
 pub use controls::ControlsView;
 pub use costs::{PassCosts, TimedPass};
+pub use counts::{CountedPass, CountsView};
 pub use devices::{CameraState, DeviceConsent};
 pub use eddy_audio::DeviceState;
 pub use eddy_background::{Count, Status};

@@ -5,10 +5,10 @@
 
 use super::{
     audit::PictureAudit,
-    counts::PictureCounts,
     canvas::Canvas,
     compare::ProjectComparison,
     compile::CompileControl,
+    counts::PictureCounts,
     devices::Devices,
     disk::DiskSync,
     documents::Documents,

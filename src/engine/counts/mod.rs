@@ -10,8 +10,6 @@ mod lines;
 mod prices;
 mod program;
 mod tally;
-#[cfg(test)]
-mod tests;
 
 pub use lines::{LineCounts, LoopCounts};
 pub use prices::{Prices, TextureFilter};

@@ -46,11 +46,7 @@ impl CountingProgram {
 impl Engine {
     /// Compiles the counting variants of a pass of the running program, which was built of `project`. Takes as long as compiling the pass several times: a variant has at most four counters for each target that the device
     /// has. Fails for a pass that draws meshes.
-    pub fn counting(
-        &self,
-        project: &Project,
-        pass: &PassName,
-    ) -> Result<CountingProgram, BuildError> {
+    pub fn counting(&self, project: &Project, pass: &PassName) -> Result<CountingProgram, BuildError> {
         let none = || EngineError::NoSuchPass(pass.title());
         let running = self.running().ok_or_else(none)?;
         let at = running.program.draws.iter().position(|draw| draw.id == *pass).ok_or_else(none)?;
@@ -64,7 +60,10 @@ impl Engine {
         }
         let gpu = self.gpu();
         let options = PassOptions {
-            bilinear_in_shader: running.program.draws[at].channels.each_ref().map(|channel| channel.filter_mode == FilterMode::Shader),
+            bilinear_in_shader: running.program.draws[at]
+                .channels
+                .each_ref()
+                .map(|channel| channel.filter_mode == FilterMode::Shader),
             driver: driver(gpu, own),
             ..PassOptions::default()
         };

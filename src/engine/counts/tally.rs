@@ -114,9 +114,11 @@ impl<'a> Tally<'a> {
                     (masked[*parent], most(index).min(jumping[*parent]))
                 }
                 Entered::Iteration(parent) => {
+                    let trips = block.in_loop.and_then(|number| self.table.loops[number].trips);
                     // A group without active lanes runs the body once.
                     let idle = |(count, entries): (&i64, &i64)| count + masked[*parent] - entries;
-                    (of(index).iter().zip(of(*parent)).map(idle).max().unwrap_or(0), most(index))
+                    let looped = || of(index).iter().zip(of(*parent)).map(idle).max().unwrap_or(0);
+                    (trips.map_or_else(looped, |trips| masked[*parent] * i64::from(trips)), most(index))
                 }
                 Entered::Continuing(body) => (masked[*body], most(index)),
                 Entered::Never => (0, 0),

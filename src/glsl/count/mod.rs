@@ -15,6 +15,7 @@ mod instrument;
 mod sum;
 #[cfg(test)]
 mod tests;
+mod trips;
 mod work;
 
 pub use classes::OpClass;
@@ -109,6 +110,8 @@ pub struct CountedLoop {
     pub inside: Option<usize>,
     /// The number of times that a pixel reaches the loop.
     pub entries: Sum,
+    /// The number of iterations, if it is a constant so small that compilers of drivers write the loop out.
+    pub trips: Option<u32>,
     /// The number of times that a pixel runs its body, beyond a condition at its start.
     pub iterations: Sum,
 }

@@ -149,3 +149,13 @@ fn counters_are_output_in_as_many_programs_as_needed() {
     assert_eq!(counting.counters_of(2), 8..9);
     counting.variants.iter().for_each(|variant| variant.validate().expect("it is valid"));
 }
+
+#[test]
+fn small_constant_numbers_of_iterations_are_known() {
+    let trips = |body: &str| of_body(body).loops[0].trips;
+    assert_eq!(trips("for (int i = 0; i < 5; i++) s += sin(p.x + float(i));"), Some(5));
+    assert_eq!(trips("for (float i = 1.0; i > 0.0; i -= 0.25) s += sin(p.x + i);"), Some(4));
+    assert_eq!(trips("for (int i = 0; i < int(p.x); i++) s += sin(p.y);"), None);
+    assert_eq!(trips("for (int i = 0; i < 500; i++) s += sin(p.y);"), None);
+    assert_eq!(trips("for (int i = 0; i < 9; i++) { s += sin(p.y); if (p.x > 3.0) i++; }"), None);
+}

@@ -158,8 +158,17 @@ mod tests {
     fn signs(marks: &[Mark], debug: &Debug) -> (usize, usize) {
         let ctx = Context::default();
         let mut editor = CodeEditor::new("a\nb\nc\nd\n");
-        let look =
-            Look { name: "Code", font_size: 13.0, wraps: false, marks, matches: &[], shared: "", help: None, debug, costs: &[] };
+        let look = Look {
+            name: "Code",
+            font_size: 13.0,
+            wraps: false,
+            marks,
+            matches: &[],
+            shared: "",
+            help: None,
+            debug,
+            costs: &[],
+        };
         let screen = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 200.0)));
         let mut output = Default::default();
         for _ in 0..2 {

@@ -112,7 +112,11 @@ pub(super) fn text(
         for run in &laid_out.runs {
             let at = lines.run_pos(row, run);
             match cost.is_some_and(|cost| !cost.is_reached) {
-                true => painter.galley_with_override_text_color(at, run.galley.clone(), theme::of(ui).weak.gamma_multiply(0.6)),
+                true => painter.galley_with_override_text_color(
+                    at,
+                    run.galley.clone(),
+                    theme::of(ui).weak.gamma_multiply(0.6),
+                ),
                 false => painter.galley(at, run.galley.clone(), theme::of(ui).text),
             };
         }

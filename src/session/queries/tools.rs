@@ -1,6 +1,8 @@
 //! The results of tracing, comparing, measuring and other tools, for front ends.
 
-use crate::{AuditMap, CameraState, CountsView, Session, TraceView, measures::Measure, pass_history::PassStep, view::TabFix};
+use crate::{
+    AuditMap, CameraState, CountsView, Session, TraceView, measures::Measure, pass_history::PassStep, view::TabFix,
+};
 use eddy_background::{Count, Status};
 use eddy_debugger::{divergence::DivergenceFound, nonfinite::SearchEnd};
 use eddy_playback::{assertion::Unmeasured, comparing::Comparison};
