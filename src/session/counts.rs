@@ -85,7 +85,10 @@ impl OpenProject {
     /// Requests the counts of the shown picture, if they are wanted and nothing more is to be drawn.
     pub(super) fn request_counts(&mut self, tasks: &mut Tasks) {
         let is_other = self.counts.counted.as_ref().is_some_and(|counted| counted.counts.pass != self.picture.shown);
-        self.counts.is_due |= self.counts.is_on && is_other && self.counts.is_current;
+        if is_other {
+            self.counts.counted = None;
+            self.forget_counted_picture();
+        }
         if !self.playback.is_settled() || self.is_playing() {
             return;
         }
