@@ -42,7 +42,7 @@ struct PassReport {
     title: String,
     /// The median time of the pass in this frame; null if the device gave none.
     ms: Option<f64>,
-    /// Why the pass could not be counted.
+    /// The reason why the pass could not be counted.
     #[serde(skip_serializing_if = "Option::is_none")]
     uncounted: Option<String>,
     #[serde(flatten)]
@@ -91,7 +91,7 @@ struct LineReport {
     place: Place,
     /// Its part of the time of the pass, from 0 to 1.
     share: f64,
-    /// How often a pixel runs it, in the mean.
+    /// The number of times that a pixel runs it, in the mean.
     runs: f64,
     /// Texture reads per pixel.
     texture_reads: f64,
@@ -104,7 +104,7 @@ struct LoopReport {
     #[serde(flatten)]
     place: Place,
     depth: u32,
-    /// How often a pixel reaches it, in the mean.
+    /// The number of times that a pixel reaches it, in the mean.
     entries: f64,
     /// Iterations each time it is reached.
     mean: f64,

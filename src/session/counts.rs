@@ -1,4 +1,4 @@
-//! What the pixels of the shown pass execute, while the user looks at it: counted on the drawing thread after a frame,
+//! Counts of what the pixels of the shown pass execute, while the user looks at it: counted on the drawing thread after a frame,
 //! while the picture rests.
 
 use super::{

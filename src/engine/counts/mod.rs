@@ -23,7 +23,7 @@ use std::sync::Arc;
 /// The size of the tiles of [`PassCounts::divergence`], across and up.
 pub const DIVERGENCE_TILE: (u32, u32) = (8, 4);
 
-/// What the pixels of a pass executed in one draw.
+/// Counts of the pixels of a pass in one draw.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PassCounts {
     pub pass: PassName,
@@ -50,7 +50,7 @@ pub struct PassCounts {
     /// For each tile of [`DIVERGENCE_TILE`] pixels the largest of their costs over the mean, at least 1: rows of tiles
     /// from the bottom, layer by layer.
     pub divergence: Vec<f32>,
-    /// How each channel is filtered.
+    /// The filter of each channel.
     pub filters: Vec<TextureFilter>,
     /// The prices.
     pub prices: Prices,

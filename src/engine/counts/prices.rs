@@ -24,7 +24,7 @@ pub struct Prices {
     pub masked: f64,
 }
 
-/// How a channel is filtered.
+/// The filter of a channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct TextureFilter {
     pub kind: eddy_project::Filter,

@@ -56,7 +56,7 @@ struct Divider<'a> {
     table: CountTable,
     /// The blocks that call each function.
     calls: Vec<Vec<BlockIndex>>,
-    /// Of the current function.
+    /// The sites of the current function.
     sites: Vec<Option<u32>>,
     #[cfg(test)]
     placed: Vec<(crate::ir::Value, BlockIndex)>,

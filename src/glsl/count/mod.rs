@@ -60,7 +60,7 @@ pub struct Line {
 pub struct CountedBlock {
     /// The number of times that a pixel runs it, as a sum of counters.
     pub runs: Sum,
-    /// How control reaches it.
+    /// The way in which control reaches it.
     pub entered: Entered,
     /// The innermost loop that contains it within its function, by its index in [`CountTable::loops`].
     pub in_loop: Option<usize>,
@@ -70,7 +70,7 @@ pub struct CountedBlock {
     pub work: Vec<Work>,
 }
 
-/// How control reaches a block.
+/// The way in which control reaches a block.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Entered {
     /// It is the start of the entry point.

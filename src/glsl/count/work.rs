@@ -176,6 +176,16 @@ fn cost(module: &Module, f: &Function, op: &Op, value: Value, add: &mut impl FnM
     }
 }
 
+/// Returns whether compilers know a value.
+fn is_constant(f: &Function, value: Value) -> bool {
+    match f[value] {
+        Op::Literal(..) | Op::Const(_) | Op::Zero(_) => true,
+        Op::Splat { value, .. } => is_constant(f, value),
+        Op::Compose { ref parts, .. } => parts.iter().all(|part| is_constant(f, *part)),
+        _ => false,
+    }
+}
+
 fn binary(
     module: &Module,
     f: &Function,
@@ -200,9 +210,18 @@ fn binary(
             _ => add(if is_float { C::Multiply } else { C::IntegerMultiply }, own, None),
         },
         Binary::Add | Binary::Subtract => add(if is_float { C::Add } else { C::Integer }, own, None),
+        // Compilers multiply instead of dividing by a constant.
+        Binary::Divide if is_constant(f, right) => {
+            add(if is_float { C::Multiply } else { C::IntegerMultiply }, own, None);
+            add(C::Integer, if is_float { 0 } else { own }, None);
+        }
+        Binary::Modulo if is_constant(f, right) && !is_float => {
+            add(C::IntegerMultiply, 2 * own, None);
+            add(C::Integer, 2 * own, None);
+        }
         Binary::Divide if is_float => add(C::Divide, own, None),
         Binary::Modulo if is_float => {
-            add(C::Divide, own, None);
+            add(if is_constant(f, right) { C::Multiply } else { C::Divide }, own, None);
             add(C::Round, own, None);
             add(C::Add, own, None);
             add(C::Multiply, own, None);

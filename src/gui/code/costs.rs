@@ -1,4 +1,4 @@
-//! What the lines of a text cost, for its editor.
+//! The costs of the lines of a text, for its editor.
 
 use crate::{
     gui::editor::LineCost,

@@ -1,4 +1,4 @@
-//! What lines cost: a bar and a number in the gutter, words beside loops, and dimmed lines that no pixel reaches.
+//! The cost of lines: a bar and a number in the gutter, words beside loops, and dimmed lines that no pixel reaches.
 
 use super::gutter::BESIDE;
 use crate::gui::{cost_map, theme};

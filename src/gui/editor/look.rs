@@ -37,7 +37,7 @@ pub(crate) struct Look<'a> {
     /// The analysis of the text, or of a slightly older version of it.
     pub help: Option<Help<'a>>,
     pub debug: &'a Debug,
-    /// What lines cost, in the order of the lines; empty if that is not shown.
+    /// The costs of lines, in the order of the lines; empty if that is not shown.
     pub costs: &'a [LineCost],
 }
 

@@ -21,7 +21,7 @@ const ROUNDS: usize = 9;
 const SIZES: [(u32, u32); 4] = [(160, 96), (480, 272), (960, 544), (1920, 1088)];
 const LEAST_MILLIS: f64 = 1.0;
 
-/// How much a price is drawn towards its usual ratio: enough for those that no program measures.
+/// The strength by which a price is drawn towards its usual ratio: enough for those that no program measures.
 const TRUST: f64 = 1e-5;
 
 /// Measures the prices of a device. Takes some seconds, most of them for compiling.

@@ -1,4 +1,4 @@
-//! Which functions may discard the fragment.
+//! The functions that may discard the fragment.
 
 use crate::ir::{Block, Function, Module, Op, Stmt};
 
