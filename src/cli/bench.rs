@@ -4,6 +4,7 @@
 use super::{
     args::{BenchArgs, HostProgram},
     command::{CommandError, Run},
+    lines,
     machine::{Machine, RunError},
     opening::{Opened, Opening},
     report::{Printer, Report},
@@ -94,6 +95,15 @@ struct JsonLine<'a> {
     costs: Option<&'a Costs>,
 }
 
+/// The report of `render`, and the counts of `--lines`.
+#[derive(Serialize)]
+struct CountsLine<'a> {
+    #[serde(flatten)]
+    report: &'a Report,
+    #[serde(flatten)]
+    counted: Option<&'a lines::Counted>,
+}
+
 impl Run for BenchArgs {
     const OPENS_DEVICE: bool = true;
 
@@ -112,6 +122,16 @@ impl Run for BenchArgs {
 fn run(args: &BenchArgs, sweep: &[Vec<String>], inputs: &ScriptedInputs) -> io::Result<u8> {
     let mut printer = Printer::new(args.json);
     let mut machine = Machine::of(&args.run);
+    if args.lines {
+        for spec in &args.project {
+            let mut report = Report::new(spec);
+            let counted = machine
+                .attempt(&mut report, |machine, report| lines::measure(machine, report, args, spec, inputs.clone()));
+            let words = counted.as_ref().map_or(String::new(), |counted| lines::words(&report, counted));
+            printer.print_as(&CountsLine { report: &report, counted: counted.as_ref() }, &report, words.trim_end())?;
+        }
+        return Ok(printer.exit_code());
+    }
     for (spec, swept) in args.project.iter().flat_map(|spec| sweep.iter().map(move |swept| (spec, swept))) {
         let mut report = Report::swept(spec, swept);
         let costs =

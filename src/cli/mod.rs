@@ -17,6 +17,7 @@ mod failure;
 mod lab;
 mod leave;
 mod library;
+mod lines;
 mod machine;
 mod manuals;
 mod measured;

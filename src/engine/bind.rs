@@ -9,7 +9,7 @@ use super::{
     uniforms::Uniforms,
 };
 use eddy_glsl::interface;
-use eddy_gpu::{Address, Filtering, Gpu};
+use eddy_gpu::{Address, Filtering, Gpu, Texture};
 use eddy_graph::{Draw, Read, TexelSource};
 use eddy_project::{Filter, Wrap};
 use std::collections::BTreeMap;
@@ -99,7 +99,7 @@ pub(super) fn draw_fill(
 }
 
 /// Binds the uniforms of program `n` of a layer of draw `index`.
-fn uniform_group(
+pub(super) fn uniform_group(
     gpu: &Gpu,
     compiled: &CompiledDraw,
     (n, program): (usize, &StagePipeline),
@@ -128,13 +128,35 @@ fn uniform_group(
 }
 
 fn channel_group(shared: &Shared, compiled: &CompiledDraw, draw: &Draw, targets: &[Target]) -> wgpu::BindGroup {
+    let texture = |index: usize| match draw.reads[index].as_ref().map(|r| &r.source) {
+        // The order of the plan determines whether that is the current frame's or the previous one's.
+        Some(TexelSource::Target { index, .. }) => Some(targets[*index].newest()),
+        _ => compiled.channels[index].external.as_ref().map(|external| &external.texture),
+    };
+    // The layout is equal for every program of the pass, and there is at least one.
+    let first = compiled.body.pipelines().next().expect("a pass has a program");
+    let layout = &first.pipeline.layouts[interface::CHANNEL_GROUP as usize];
+    channel_group_of(shared, compiled, draw, layout, texture)
+}
+
+/// Binds these textures to the channels of a draw.
+pub(super) fn channel_group_of<'t>(
+    shared: &Shared,
+    compiled: &CompiledDraw,
+    draw: &Draw,
+    layout: &wgpu::BindGroupLayout,
+    texture: impl Fn(usize) -> Option<&'t Texture>,
+) -> wgpu::BindGroup {
     let mut entries = Vec::new();
     for (index, channel) in compiled.channels.iter().enumerate() {
         let read = draw.reads[index].as_ref();
         if channel.texture {
             entries.push(wgpu::BindGroupEntry {
                 binding: interface::texture_binding(index),
-                resource: wgpu::BindingResource::TextureView(view(shared, channel, read, targets)),
+                resource: wgpu::BindingResource::TextureView(match texture(index) {
+                    Some(texture) => view(texture, channel, read),
+                    None => shared.fallbacks.of(channel.dimension),
+                }),
             });
         }
         if channel.sampler {
@@ -144,35 +166,20 @@ fn channel_group(shared: &Shared, compiled: &CompiledDraw, draw: &Draw, targets:
             });
         }
     }
-    // The layout is equal for every program of the pass, and there is at least one.
-    let first = compiled.body.pipelines().next().expect("a pass has a program");
     shared.gpu.device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("channels"),
-        layout: &first.pipeline.layouts[interface::CHANNEL_GROUP as usize],
+        layout,
         entries: &entries,
     })
 }
 
-fn view<'a>(
-    shared: &'a Shared,
-    channel: &'a BoundChannel,
-    read: Option<&Read>,
-    targets: &'a [Target],
-) -> &'a wgpu::TextureView {
-    match read.map(|r| &r.source) {
-        // The order of the plan determines whether that is the current frame's or the previous one's.
-        Some(TexelSource::Target { index, .. }) => {
-            let texture = targets[*index].newest();
-            // Filtering in the shader uses the mip levels that exist.
-            let is_linear = read.is_some_and(|r| r.sampler.filter == Filter::Linear);
-            let one_level = is_linear && channel.filter_mode == FilterMode::Shader;
-            if one_level { &texture.level_0 } else { &texture.all_levels }
-        }
-        _ => match &channel.external {
-            Some(external) => &external.texture.all_levels,
-            None => shared.fallbacks.of(channel.dimension),
-        },
-    }
+/// Returns the levels of a texture that a channel reads.
+fn view<'t>(texture: &'t Texture, channel: &BoundChannel, read: Option<&Read>) -> &'t wgpu::TextureView {
+    // Filtering in the shader uses the mip levels that exist.
+    let is_target = read.is_some_and(|read| matches!(read.source, TexelSource::Target { .. }));
+    let is_linear = read.is_some_and(|r| r.sampler.filter == Filter::Linear);
+    let one_level = is_target && is_linear && channel.filter_mode == FilterMode::Shader;
+    if one_level { &texture.level_0 } else { &texture.all_levels }
 }
 
 fn sampler<'a>(shared: &'a Shared, channel: &BoundChannel, read: Option<&Read>) -> &'a wgpu::Sampler {

@@ -323,7 +323,7 @@ struct Compilation {
 }
 
 /// Returns the driver properties that affect the code of a pass.
-fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
+pub(super) fn driver(gpu: &Gpu, pass: &Pass) -> Driver {
     let has_small_floats = pass.formats().into_iter().any(TexelFormat::is_small_float);
     Driver {
         tables_in_memory: !gpu.has_storage_buffers,

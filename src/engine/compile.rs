@@ -7,7 +7,9 @@ use super::{
     stage_cache::{self, StageCache},
 };
 use eddy_diag::{Diagnostic, Span};
-use eddy_glsl::{self as glsl, Compiled, Driver, Link, MAX_CHANNELS, PassKind, PassSource, Probe, Reflection};
+use eddy_glsl::{
+    self as glsl, Compiled, Driver, Link, MAX_CHANNELS, PassKind, PassSource, Probe, Reflection, count::Counting,
+};
 use eddy_project::{Body, FillKind, Geometry, Stage};
 use std::sync::Arc;
 
@@ -145,6 +147,19 @@ impl Sources<'_> {
             }
         }
         if pass.diagnostics.iter().any(Diagnostic::is_error) { Err(pass.diagnostics) } else { Ok(pass) }
+    }
+
+    /// Compiles the counting variants of `project.passes[index]`, which draws no meshes; see [`Counting::new`].
+    ///
+    /// # Panics
+    /// If there is no such pass.
+    pub(super) fn counting(&self, index: usize, options: PassOptions, per_draw: usize) -> Result<Counting> {
+        let (id, kind) = (self.stage_id(index, Stage::Own), self.own_kind(index));
+        let PassOptions { bilinear_in_shader, driver, .. } = options;
+        self.with_source(index, id, kind, |source| {
+            let source = PassSource { bilinear_in_shader, driver, ..*source };
+            Counting::new(&source, &Link::default(), self.preamble(), per_draw)
+        })
     }
 
     fn compile(

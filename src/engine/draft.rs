@@ -163,7 +163,7 @@ impl ProgramDraft {
 }
 
 /// Returns the bind group layout of a program's uniforms.
-fn uniform_bindings(program: &CompiledProgram, reflection: &Reflection) -> Vec<(u32, Binding)> {
+pub(super) fn uniform_bindings(program: &CompiledProgram, reflection: &Reflection) -> Vec<(u32, Binding)> {
     let mut bindings = vec![(0, Binding::Uniform { bytes: size_of::<interface::UniformBlock>() as u64 })];
     for (number, bytes) in program.tables() {
         let uniform = Binding::Uniform { bytes: bytes.len() as u64 };

@@ -26,6 +26,8 @@ pub enum EngineError {
         *needed as f64 / (1u64 << 30) as f64, *available as f64 / (1u64 << 30) as f64
     )]
     Memory { needed: u64, available: u64 },
+    #[error("what {pass} executes cannot be counted: {why}")]
+    Uncounted { pass: String, why: &'static str },
     #[error(transparent)]
     Mesh(#[from] MeshError),
     /// See [`Engine::stop_by`](super::Engine::stop_by).

@@ -14,6 +14,7 @@ mod compile;
 mod compiled;
 mod conditions;
 mod costs;
+pub mod counts;
 mod custom_uniforms;
 mod display;
 mod draft;

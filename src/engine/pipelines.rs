@@ -7,8 +7,8 @@ use super::{
 };
 use eddy_glsl::{Attribute, Compiled, interface};
 use eddy_gpu::{
-    Binding, FragmentPipelineDescriptor, Gpu, GpuError, MeshPipelineDescriptor, Pipeline, Shader, check_targets,
-    constant_buffer,
+    Binding, CounterTargets, FragmentPipelineDescriptor, Gpu, GpuError, MeshPipelineDescriptor, Pipeline, Shader,
+    check_targets, constant_buffer,
 };
 use eddy_media::mesh::Vertex;
 use eddy_project::{Cull, DepthTest, MeshDraw};
@@ -155,27 +155,41 @@ impl PipelineOrder {
         Ok(formats.into_iter().zip(self.program.fragment.reflection.outputs).collect())
     }
 
-    fn make(&self, gpu: &Gpu) -> Result<StagePipeline, GpuError> {
+    /// Creates the pipelines of counting variants, each with its number of targets; see [`CounterTargets`].
+    pub(crate) fn make_counting(gpu: &Gpu, orders: &[(Self, usize)]) -> Result<Vec<StagePipeline>, GpuError> {
+        let make = |(order, targets): &(Self, usize)| {
+            let targets = CounterTargets::formats(*targets);
+            Ok(StagePipeline { pipeline: order.screen_pipeline(gpu, &targets)?, tables: order.tables(gpu)? })
+        };
+        side_by_side(orders, make).into_iter().collect()
+    }
+
+    fn tables(&self, gpu: &Gpu) -> Result<Vec<(u32, wgpu::Buffer)>, GpuError> {
         let table = |(number, bytes): (u32, &[u8])| {
             let is_storage = number == interface::TABLE_BINDING;
             let usage = if is_storage { wgpu::BufferUsages::STORAGE } else { wgpu::BufferUsages::UNIFORM };
             Ok((number, constant_buffer(gpu, "constant tables", usage, bytes)?))
         };
-        let tables = self.program.tables().map(table).collect::<Result<Vec<_>, GpuError>>()?;
+        self.program.tables().map(table).collect()
+    }
+
+    fn make(&self, gpu: &Gpu) -> Result<StagePipeline, GpuError> {
         let pipeline = match (&self.program.vertex, &self.mesh) {
             (Some(vertex), Some(mesh)) => self.mesh_pipeline(gpu, vertex, mesh)?,
-            _ => Pipeline::new(
-                gpu,
-                FragmentPipelineDescriptor {
-                    label: &self.label,
-                    shader: shader(&self.program.fragment),
-                    entry_point: interface::ENTRY_POINT,
-                    groups: &self.groups,
-                    targets: &self.targets(gpu)?,
-                },
-            )?,
+            _ => self.screen_pipeline(gpu, &self.targets(gpu)?)?,
         };
-        Ok(StagePipeline { pipeline, tables })
+        Ok(StagePipeline { pipeline, tables: self.tables(gpu)? })
+    }
+
+    fn screen_pipeline(&self, gpu: &Gpu, targets: &[(wgpu::TextureFormat, bool)]) -> Result<Pipeline, GpuError> {
+        let descriptor = FragmentPipelineDescriptor {
+            label: &self.label,
+            shader: shader(&self.program.fragment),
+            entry_point: interface::ENTRY_POINT,
+            groups: &self.groups,
+            targets,
+        };
+        Pipeline::new(gpu, descriptor)
     }
 
     fn mesh_pipeline(&self, gpu: &Gpu, vertex: &Compiled, mesh: &MeshState) -> Result<Pipeline, GpuError> {

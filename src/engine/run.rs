@@ -168,7 +168,7 @@ impl Engine {
                 let none = || EngineError::NoSuchPass(pass.title());
                 let index = running.program.draws.iter().position(|draw| draw.id == *pass).ok_or_else(none)?;
                 let converter = self.converter.get_or_insert_with(|| FloatConverter::new(&shared.gpu));
-                let mut capture = Capture::new(pass, converter);
+                let mut capture = Capture::new(converter);
                 caller.capture = Some(&mut capture);
                 let purpose = Purpose::Inspect(index);
                 (drawn.stats, drawn.is_whole) = running.draw(shared, display, inputs, purpose, &mut caller)?;
@@ -266,7 +266,7 @@ impl Engine {
         running.check_is_on(pass)?;
         let converter = self.converter.get_or_insert_with(|| FloatConverter::new(&self.shared.gpu));
         let index = running.program.draws.iter().position(|draw| draw.id == *pass).ok_or_else(none)?;
-        let mut capture = Capture::after_frame(pass, converter);
+        let mut capture = Capture::after_frame(converter);
         capture.take(running, &self.shared, index)?;
         capture.taken.ok_or_else(none)
     }

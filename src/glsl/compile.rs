@@ -1,7 +1,9 @@
 //! The pipeline that compiles a pass from its texts to a module, and its results.
 
 use super::{
+    ast::Origins,
     check,
+    count::{Counting, Prepared},
     diagnostics::Diagnostics,
     emit,
     front_end::FrontEnd,
@@ -85,6 +87,69 @@ pub fn dump_ir(
     Ok(out)
 }
 
+/// An optimised program, before work-arounds for drivers.
+struct Lowered {
+    program: ir::Module,
+    reflection: Reflection,
+    origins: Origins,
+    /// Warnings and notes.
+    diagnostics: Vec<Diagnostic>,
+}
+
+fn lowered(
+    source: &PassSource<'_>,
+    link: &Link<'_>,
+    preamble: Option<&Preamble>,
+    seen: &mut impl FnMut(&str, &ir::Module),
+) -> Result<Lowered, Vec<Diagnostic>> {
+    let (pass, probed) = check_pass(source, link, preamble);
+    if pass.has_errors() {
+        return Err(pass.diagnostics);
+    }
+    let FrontEnd { module: mut checked, interface, diagnostics, origins, .. } = pass;
+    lower::arrays_to_constants(&mut checked, emit::MIN_STORAGE_TABLE);
+    let options = lower::Options {
+        by_reference: source.driver.array_loops.then_some(emit::MIN_COPY),
+        table: emit::MIN_UNIFORM_TABLE as usize,
+    };
+    let lower::Lowered { mut program, reflection, .. } =
+        lower::lower(&checked, source, options, interface, probed, lower::Marks::default());
+    opt::optimise(&mut program, source.driver.disabled_optimisations, seen);
+    Ok(Lowered { program, reflection, origins, diagnostics })
+}
+
+/// Divides a pass into blocks. Also returns what it reads, and its warnings and notes.
+pub(super) fn prepare_counting(
+    source: &PassSource<'_>,
+    link: &Link<'_>,
+    preamble: Option<&Preamble>,
+) -> Result<(Prepared, Reflection, Vec<Diagnostic>), Vec<Diagnostic>> {
+    let Lowered { program, reflection, origins, diagnostics } = lowered(source, link, preamble, &mut |_, _| {})?;
+    Ok((Prepared::new(program, source, &origins), reflection, diagnostics))
+}
+
+/// Compiles the counting variants of a pass: see [`Counting::new`].
+pub(super) fn compile_counting(
+    source: &PassSource<'_>,
+    link: &Link<'_>,
+    preamble: Option<&Preamble>,
+    per_draw: usize,
+) -> Result<Counting, Vec<Diagnostic>> {
+    let (prepared, reflection, diagnostics) = prepare_counting(source, link, preamble)?;
+    let counters = prepared.table.counters;
+    let mut variants = Vec::new();
+    for start in (0..counters).step_by(per_draw) {
+        source.cancel.check();
+        let mut program = prepared.variant(start..(start + per_draw).min(counters));
+        ir::verify::assert_kept(&program, "counting");
+        emit::work_arounds::apply(&mut program, source);
+        let mut reflection = reflection.clone();
+        let emitted = emit::emit(&program, source, &mut reflection);
+        variants.push(finished(emitted, 0, reflection, diagnostics.clone())?);
+    }
+    Ok(Counting { table: prepared.table, variants, per_draw })
+}
+
 /// Compiles a pass; `seen` is called with the program after each compiler pass, and the name of that pass.
 pub(super) fn compile_seen(
     source: &PassSource<'_>,
@@ -92,19 +157,7 @@ pub(super) fn compile_seen(
     preamble: Option<&Preamble>,
     mut seen: impl FnMut(&str, &ir::Module),
 ) -> Result<Compiled, Vec<Diagnostic>> {
-    let (pass, probed) = check_pass(source, link, preamble);
-    if pass.has_errors() {
-        return Err(pass.diagnostics);
-    }
-    let FrontEnd { module: mut checked, interface, diagnostics, .. } = pass;
-    lower::arrays_to_constants(&mut checked, emit::MIN_STORAGE_TABLE);
-    let options = lower::Options {
-        by_reference: source.driver.array_loops.then_some(emit::MIN_COPY),
-        table: emit::MIN_UNIFORM_TABLE as usize,
-    };
-    let lower::Lowered { mut program, mut reflection, .. } =
-        lower::lower(&checked, source, options, interface, probed, lower::Marks::default());
-    opt::optimise(&mut program, source.driver.disabled_optimisations, &mut seen);
+    let Lowered { mut program, mut reflection, diagnostics, .. } = lowered(source, link, preamble, &mut seen)?;
     let specialisable = opt::specialise::Specialisable::new(&program).filter(|_| !source.kind.is_plain());
     for (channel, read) in reflection.channels.iter_mut().zip(opt::specialise::Reads::of(&program).channels) {
         (channel.texels, channel.components) = (read.texels, read.components);
@@ -113,8 +166,17 @@ pub(super) fn compile_seen(
     ir::verify::assert_kept(&program, "work-arounds");
     seen("work-arounds", &program);
     let inlined_size = program.inlined_sizes().pop().unwrap_or(0);
-    let emit::Emitted { module, tables, custom_uniform_bytes, initialized_arrays } =
-        emit::emit(&program, source, &mut reflection);
+    let emitted = emit::emit(&program, source, &mut reflection);
+    Ok(Compiled { specialisable, ..finished(emitted, inlined_size, reflection, diagnostics)? })
+}
+
+fn finished(
+    emitted: emit::Emitted,
+    inlined_size: u64,
+    reflection: Reflection,
+    diagnostics: Vec<Diagnostic>,
+) -> Result<Compiled, Vec<Diagnostic>> {
+    let emit::Emitted { module, tables, custom_uniform_bytes, initialized_arrays } = emitted;
     let emit::TableBytes { uniform: uniform_tables, storage: tables } = tables;
     let compiled = Compiled {
         module,
@@ -124,7 +186,7 @@ pub(super) fn compile_seen(
         custom_uniform_bytes,
         initialized_arrays,
         inlined_size,
-        specialisable,
+        specialisable: None,
         diagnostics,
     };
     // wgpu validates every module that it receives.

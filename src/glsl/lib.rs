@@ -106,6 +106,8 @@ mod source;
 mod stack;
 mod unsequenced;
 
+pub mod count;
+
 pub(crate) mod check;
 pub(crate) mod emit;
 pub(crate) mod hir;

@@ -6,6 +6,7 @@ mod adapter;
 mod bindings;
 mod buffer;
 mod convert;
+mod counters;
 mod device;
 mod direct3d;
 mod faces;
@@ -37,6 +38,7 @@ pub use adapter::{ADAPTER_VARIABLE, AdapterChoice, of_backends, without_windows}
 pub use bindings::Binding;
 pub use buffer::constant_buffer;
 pub use convert::FloatConverter;
+pub use counters::CounterTargets;
 pub use device::{Gpu, GpuError, GpuOptions, Slices};
 pub use direct3d::HlslCompiler;
 pub use eddy_texture::TextureShape;

@@ -17,6 +17,7 @@ mod code;
 mod color_space;
 mod compare;
 mod config_file;
+mod cost_map;
 mod costs;
 mod custom_uniforms;
 mod damage;

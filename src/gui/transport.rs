@@ -251,6 +251,7 @@ fn options(ui: &mut Ui, session: &Session, shape: Option<Shape>, out: &mut UiOut
             Action::PlayRecording,
             Action::ExportJson,
             Action::Audit,
+            Action::CountCost,
             Action::Fullscreen,
             Action::Panel(Panel::Costs),
             Action::Compile,

@@ -1,7 +1,7 @@
 //! The picture, and the mouse over it.
 
 use super::{
-    accessible, error_map,
+    accessible, cost_map, error_map,
     geometry::{Area, Letterbox, Shape},
     halt, probe, theme,
     ui_output::{ShellCommand, UiOutput},
@@ -153,6 +153,7 @@ impl Viewport {
         out.place("picture", rect);
         let reads_pointer = session.project().dialect.row().reads_pointer();
         self.mouse(ui, &response, (&letterbox, reads_pointer), out);
+        cost_map::paint(ui, session, picture);
         error_map::paint(ui, session, picture);
         traced(ui, session, picture);
         let scale = ui.pixels_per_point();
@@ -181,6 +182,7 @@ impl Viewport {
         }
         probe::show(ui, session, rect, self.under, out);
         error_map::show(ui, session, rect, out);
+        cost_map::show(ui, session, rect, self.under, out);
         halt::show(ui, session, rect, out);
     }
 

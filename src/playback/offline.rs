@@ -352,7 +352,7 @@ impl Offline {
     }
 
     /// Executes a frame's work, on a thread that can be abandoned if there is a limit.
-    fn within<T: Send + 'static>(
+    pub(crate) fn within<T: Send + 'static>(
         &mut self,
         frame: i32,
         work: impl FnOnce(&mut Engine) -> Result<T, EngineError> + Send + 'static,

@@ -154,6 +154,7 @@ impl OpenProject {
         match command {
             ToolCommand::Audit => self.ask_audit(),
             ToolCommand::HideAudit => self.audit.map = None,
+            ToolCommand::Count(on) => self.want_counts(on),
             ToolCommand::FindDivergence => self.want_divergence(),
             ToolCommand::FindNonfinite(is_wanted) => self.nan_search.want(is_wanted),
             ToolCommand::Compare(against) => self.comparison.want(against),

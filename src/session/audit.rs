@@ -159,6 +159,7 @@ impl OpenProject {
     pub(super) fn on_picture_changed(&mut self) {
         self.picture.frames_drawn += 1;
         self.audit.map = None;
+        self.forget_counted_picture();
     }
 
     fn not_checked(&mut self, why: &str) {

@@ -18,6 +18,7 @@ mod compile;
 mod controls;
 mod conversion;
 mod costs;
+mod counts;
 mod debounce;
 mod devices;
 mod disk;
@@ -74,6 +75,7 @@ pub use command::{
 };
 pub use controls::ControlsView;
 pub use costs::{PassCosts, TimedPass};
+pub use counts::{CountedPass, CountsView};
 pub use devices::{CameraState, DeviceConsent};
 pub use eddy_audio::DeviceState;
 pub use eddy_background::{Count, Status};

@@ -8,6 +8,7 @@ use super::{
     canvas::Canvas,
     compare::ProjectComparison,
     compile::CompileControl,
+    counts::PictureCounts,
     devices::Devices,
     disk::DiskSync,
     documents::Documents,
@@ -43,6 +44,7 @@ pub(super) struct OpenProject {
     pub read_backs: ReadBacks,
     pub trace: PixelTrace,
     pub audit: PictureAudit,
+    pub counts: PictureCounts,
     /// The search for the first NaN.
     pub nan_search: NanSearch,
     pub comparison: ProjectComparison,
@@ -78,6 +80,7 @@ impl OpenProject {
             read_backs: ReadBacks::default(),
             trace: PixelTrace::new(wake.clone()),
             audit: PictureAudit::new(wake.clone()),
+            counts: PictureCounts::default(),
             nan_search: NanSearch::new(wake.clone()),
             comparison: ProjectComparison::new(wake.clone()),
             host,

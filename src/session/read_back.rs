@@ -102,6 +102,7 @@ impl Session {
         self.open.nan_search.background.renew_request();
         self.open.comparison.background.renew_request();
         self.open.audit.renew_request();
+        self.open.counts.renew_request();
         self.open.trace.renew_request();
     }
 
@@ -117,6 +118,7 @@ impl Session {
         self.open.find_divergence(&device);
         self.open.compare(&device);
         self.open.audit();
+        self.open.take_counts();
         self.open.trace_pixel(has_frame);
     }
 }
@@ -131,6 +133,7 @@ impl OpenProject {
         if self.playback.is_settled() {
             self.trace.request_input(tasks);
         }
+        self.request_counts(tasks);
     }
 }
 

@@ -68,6 +68,11 @@ impl TexelFormat {
         matches!(self, TexelFormat::R16f | TexelFormat::Rg16f | TexelFormat::Rgba16f)
     }
 
+    /// Returns whether the components are floats, of 16 or 32 bits.
+    pub fn is_float(self) -> bool {
+        !matches!(self, TexelFormat::R8 | TexelFormat::Rg8 | TexelFormat::Rgba8)
+    }
+
     /// Returns the bytes per texel.
     pub fn bytes(self) -> u64 {
         match self {

@@ -20,6 +20,7 @@ mod cli_measure;
 mod cli_render;
 mod compile_budget;
 mod conditions;
+mod counting;
 mod cubemaps;
 mod dialect_conversions;
 mod dialect_pictures;

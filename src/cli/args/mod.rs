@@ -22,7 +22,7 @@ use eddy_project::{EditedTexts, project_of};
 use run::DisabledPasses;
 use std::{net::SocketAddr, path::PathBuf, time::Duration};
 pub(super) use values::face_of;
-use values::{PROJECT, folder, osc, seconds, size, webcam};
+use values::{PROJECT, Picture, folder, osc, picture, seconds, size, webcam};
 
 /// Runs Shadertoy programs unchanged and says how fast and how wrong they are.
 #[derive(Debug, Parser)]
@@ -142,6 +142,18 @@ pub(super) struct BenchArgs {
     /// Print one JSON object per line instead of a table
     #[arg(long)]
     pub json: bool,
+    /// Count what the pixels of one frame execute, line by line, with each line's part of the time of its pass
+    #[arg(long, conflicts_with_all = ["sweep", "replay"])]
+    pub lines: bool,
+    /// Count only this pass: image, buffer_a, a further buffer's name …
+    #[arg(long, value_name = "NAME", requires = "lines", value_parser = picture)]
+    pub pass: Option<Picture>,
+    /// Count this frame [default: 0]
+    #[arg(long, value_name = "FRAME", requires = "lines")]
+    pub at: Option<u32>,
+    /// Show this number of lines of each pass [default: 20; with --json all]
+    #[arg(long, value_name = "N", requires = "lines")]
+    pub top: Option<usize>,
 }
 
 impl BenchArgs {

@@ -9,13 +9,12 @@ use eddy_glsl::MAX_CHANNELS;
 use eddy_gpu::{FloatConverter, Gpu, Readback, Texture};
 use eddy_graph::{ReadTiming, TexelSource};
 use eddy_media::Texels;
-use eddy_project::{Filter, PassName, Wrap};
+use eddy_project::{Filter, Wrap};
 use eddy_texture::{Dimension, TextureShape};
 use std::sync::Arc;
 
 /// Captures the inputs of one pass while a frame is drawn; for a pass of several steps, those of its last.
 pub(crate) struct Capture<'a> {
-    pass: &'a PassName,
     converter: &'a FloatConverter,
     /// True if the pass has been drawn already.
     is_after_frame: bool,
@@ -23,13 +22,13 @@ pub(crate) struct Capture<'a> {
 }
 
 impl<'a> Capture<'a> {
-    pub(crate) fn new(pass: &'a PassName, converter: &'a FloatConverter) -> Self {
-        Self { pass, converter, is_after_frame: false, taken: None }
+    pub(crate) fn new(converter: &'a FloatConverter) -> Self {
+        Self { converter, is_after_frame: false, taken: None }
     }
 
     /// Captures the inputs of a pass after the frame: they exist until something new is drawn.
-    pub(crate) fn after_frame(pass: &'a PassName, converter: &'a FloatConverter) -> Self {
-        Self { pass, converter, is_after_frame: true, taken: None }
+    pub(crate) fn after_frame(converter: &'a FloatConverter) -> Self {
+        Self { converter, is_after_frame: true, taken: None }
     }
 
     /// Reads all inputs of a draw. Previously encoded commands have been submitted.
@@ -67,16 +66,7 @@ impl<'a> Capture<'a> {
     ) -> Result<TextureCopy, EngineError> {
         let bound = &compiled.channels[channel];
         let read = running.program.plan.draws[index].reads[channel].as_ref();
-        let texture = match read.map(|read| &read.source) {
-            _ if !bound.texture => None,
-            Some(TexelSource::Target { index: target, when: ReadTiming::LastFrame }) if self.is_after_frame => {
-                Some(self.before(running, index, *target)?)
-            }
-            Some(TexelSource::Target { index, .. }) => Some(running.targets[*index].newest()),
-            Some(TexelSource::External | TexelSource::Nothing) | None => {
-                bound.external.as_ref().map(|external| &external.texture)
-            }
-        };
+        let texture = texture_of(running, (compiled, index), channel, self.is_after_frame)?;
         let Some(texture) = texture else { return Ok(TextureCopy::black()) };
         let (filter, wrap) = read.map_or((Filter::Nearest, Wrap::Clamp), |r| (r.sampler.filter, r.sampler.wrap));
         let dimension = texture.shape.dimension;
@@ -92,24 +82,6 @@ impl<'a> Capture<'a> {
         Ok(TextureCopy { dimension, levels, filter, wrap, level_by: LevelBy::Pixel })
     }
 
-    /// Returns the texture of a target that draw `reader` read, which happens before the target is drawn.
-    fn before<'r>(&self, running: &'r Running, reader: usize, target: usize) -> Result<&'r Texture, EngineError> {
-        let plan = &running.program.plan;
-        let held = &running.targets[target];
-        let Some(drawer) = plan.draws.iter().position(|draw| draw.targets.contains(&target)) else {
-            return Ok(held.newest());
-        };
-        let run_of = |draw: usize| plan.runs.iter().position(|run| run.draws.contains(&draw));
-        match running.steps_drawn.get(drawer) {
-            // It was not drawn, as none of its inputs had changed.
-            None | Some(0) => Ok(held.newest()),
-            Some(&steps) if steps > 1 && run_of(drawer) != run_of(reader) => {
-                Err(EngineError::Overwritten { reader: self.pass.title(), read: held.id.title() })
-            }
-            Some(_) => Ok(&held.textures[held.back()]),
-        }
-    }
-
     fn level(&self, gpu: &Gpu, texture: &Texture, level: u32) -> Result<Level, EngineError> {
         let mut texels = Vec::new();
         for layer in 0..texture.shape.layers() {
@@ -118,6 +90,45 @@ impl<'a> Capture<'a> {
         }
         let [width, height, _] = texture.shape.level(level);
         Ok(Level { width, height, depth: texture.shape.layers(), texels })
+    }
+}
+
+/// Returns the texture that a channel of a draw reads, or read if the frame has been drawn; `None` for none.
+pub(crate) fn texture_of<'r>(
+    running: &'r Running,
+    (compiled, index): (&'r CompiledDraw, usize),
+    channel: usize,
+    is_after_frame: bool,
+) -> Result<Option<&'r Texture>, EngineError> {
+    let bound = &compiled.channels[channel];
+    let read = running.program.plan.draws[index].reads[channel].as_ref();
+    Ok(match read.map(|read| &read.source) {
+        _ if !bound.texture => None,
+        Some(TexelSource::Target { index: target, when: ReadTiming::LastFrame }) if is_after_frame => {
+            Some(before(running, index, *target)?)
+        }
+        Some(TexelSource::Target { index, .. }) => Some(running.targets[*index].newest()),
+        Some(TexelSource::External | TexelSource::Nothing) | None => {
+            bound.external.as_ref().map(|external| &external.texture)
+        }
+    })
+}
+
+/// Returns the texture of a target that draw `reader` read, which happens before the target is drawn.
+fn before(running: &Running, reader: usize, target: usize) -> Result<&Texture, EngineError> {
+    let plan = &running.program.plan;
+    let held = &running.targets[target];
+    let Some(drawer) = plan.draws.iter().position(|draw| draw.targets.contains(&target)) else {
+        return Ok(held.newest());
+    };
+    let run_of = |draw: usize| plan.runs.iter().position(|run| run.draws.contains(&draw));
+    match running.steps_drawn.get(drawer) {
+        // It was not drawn, as none of its inputs had changed.
+        None | Some(0) => Ok(held.newest()),
+        Some(&steps) if steps > 1 && run_of(drawer) != run_of(reader) => {
+            Err(EngineError::Overwritten { reader: running.program.draws[reader].id.title(), read: held.id.title() })
+        }
+        Some(_) => Ok(&held.textures[held.back()]),
     }
 }
 

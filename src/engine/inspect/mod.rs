@@ -7,7 +7,7 @@ mod capture;
 mod texture;
 mod world;
 
-pub(super) use capture::Capture;
+pub(super) use capture::{Capture, texture_of};
 pub use texture::{Level, LevelBy, TextureCopy};
 pub use world::DrawInputs;
 pub use world::{MeshInputs, PassInputs};

@@ -108,10 +108,13 @@ impl Builder<'_, '_> {
             return;
         }
         let is_vertex = self.cx.source.kind.is_vertex();
+        // Integers are not interpolated.
+        let is_whole = |value: Value| self.cx.ir.scalar(self.ir.ty(value)) != Scalar::Float;
+        let is_whole: Vec<bool> = parts.iter().map(|(_, value)| is_whole(*value)).collect();
         let mut bound = Vec::with_capacity(parts.len());
-        for &(output, value) in parts {
+        for (&(output, value), is_whole) in parts.iter().zip(is_whole) {
             let binding = match output {
-                Output::Target(location) if self.cx.source.kind.is_stage() => at(location, None),
+                Output::Target(location) if self.cx.source.kind.is_stage() || is_whole => at(location, None),
                 // The binding that passes have always had.
                 Output::Target(location) => at(location, interpolation(false)),
                 Output::Varying { location, flat } => at(location, interpolation(flat)),

@@ -16,7 +16,7 @@ mod number;
 mod observer;
 mod state;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod world;
 
 pub use inputs::{EntryInputs, SlotCells, quad};

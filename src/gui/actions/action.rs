@@ -49,6 +49,9 @@ pub(crate) enum Action {
     Bookmarklet,
     /// Compares single with double precision, and finds undefined results.
     Audit,
+    /// Shows what pixels and lines cost.
+    CountCost,
+    TraceCostliest,
     Fullscreen,
     /// Toggles code over a picture that fills the window.
     Present,

@@ -160,6 +160,10 @@ const OWN: &[Entry] = &[
     .found_by("picture image export capture video render"),
     row(Action::Audit, "audit", "Check precision, NaN and undefined behaviour", &["Ctrl+Shift+U"], Group::Picture)
         .found_by("debug validate nan accuracy error"),
+    row(Action::CountCost, "count-cost", "Toggle cost by pixel and by line", &["Ctrl+Shift+H"], Group::Picture)
+        .found_by("heat map profile performance slow time speed hot"),
+    row(Action::TraceCostliest, "trace-costliest", "Trace the costliest pixel", &[], Group::Picture)
+        .found_by("slow debug profile performance"),
     row(Action::FindNonfinite, "first-nan", "Find first NaN or infinity", &[], Group::Picture).found_by("debug inf"),
     row(Action::Record, "record-input", "Start/stop recording input", &["Ctrl+Shift+R"], Group::Picture)
         .found_by("capture video replay mouse keys recording"),

@@ -1,6 +1,7 @@
 //! The editor's side of the window: the tab in front, its text, find and replace, and the list of problems below.
 
 mod bars;
+mod costs;
 mod everywhere;
 mod find_bar;
 mod fixes;
@@ -372,6 +373,7 @@ impl CodePanel {
             Some(Help { analysis: &a.analysis, source, classes: &a.classes, text: a.text() })
         });
         let (font_size, wraps) = (self.font_size, self.wraps);
+        let costs = costs::of_lines(session, &self.current, editor.buffer().text());
         let name = format!("Code of {}", self.current.title());
         let look = Look {
             name: &name,
@@ -382,6 +384,7 @@ impl CodePanel {
             shared,
             help,
             debug: &self.debug,
+            costs: &costs,
         };
         let keymap = out.keys.clone();
         out.home("code", ui, Self::id(&self.current));

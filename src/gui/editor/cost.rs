@@ -26,7 +26,17 @@ fn frame_with(
     (wraps, marks, help): (bool, &[Mark], Option<Help<'_>>),
     events: Vec<Event>,
 ) -> f64 {
-    let look = Look { name: "Code", font_size: 13.0, wraps, marks, matches: &[], shared: "", help, debug: &NO_DEBUG };
+    let look = Look {
+        name: "Code",
+        font_size: 13.0,
+        wraps,
+        marks,
+        matches: &[],
+        shared: "",
+        help,
+        debug: &NO_DEBUG,
+        costs: &[],
+    };
     let screen_rect = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(700.0, 700.0)));
     let input = RawInput { screen_rect, events, focused: true, ..Default::default() };
     let start = Instant::now();

@@ -3,6 +3,7 @@
 use super::{
     buffer::Buffer,
     highlight::Highlight,
+    line_cost,
     look::{Debug, Look},
     nesting::Bracket,
     rows::Rows,
@@ -66,7 +67,9 @@ impl Gutter<'_> {
             painter.text(pos2(rect.right() - 18.0, middle), Align2::RIGHT_CENTER, line + 1, font.clone(), tint);
             let line_area = Rect::from_center_size(pos2(rect.center().x, middle), vec2(rect.width(), row_height));
             let is_over = pointer.is_some_and(|p| line_area.contains(p));
-            let sign = pos2(rect.left() + 8.0, middle);
+            let column = line_cost::column(look.costs);
+            line_cost::paint(&painter, ui, look.costs, line, pos2(rect.left(), middle), row_height);
+            let sign = pos2(rect.left() + column + 8.0, middle);
             debugged(&painter, sign, line, look.debug, is_over && worst.is_none(), p);
             if let Some(severity) = worst {
                 let is_on_breakpoint = look.debug.breakpoints.iter().any(|(of, ..)| *of == line);
@@ -155,8 +158,17 @@ mod tests {
     fn signs(marks: &[Mark], debug: &Debug) -> (usize, usize) {
         let ctx = Context::default();
         let mut editor = CodeEditor::new("a\nb\nc\nd\n");
-        let look =
-            Look { name: "Code", font_size: 13.0, wraps: false, marks, matches: &[], shared: "", help: None, debug };
+        let look = Look {
+            name: "Code",
+            font_size: 13.0,
+            wraps: false,
+            marks,
+            matches: &[],
+            shared: "",
+            help: None,
+            debug,
+            costs: &[],
+        };
         let screen = Some(Rect::from_min_size(pos2(0.0, 0.0), vec2(400.0, 200.0)));
         let mut output = Default::default();
         for _ in 0..2 {

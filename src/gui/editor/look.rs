@@ -1,5 +1,6 @@
 //! The display settings of a text in an editor: its size, marks, matches, and the analysis of it.
 
+use super::line_cost::LineCost;
 use crate::{
     diag::{Severity, SourceId},
     glsl::services::{Analysis, ClassSpan},
@@ -36,6 +37,8 @@ pub(crate) struct Look<'a> {
     /// The analysis of the text, or of a slightly older version of it.
     pub help: Option<Help<'a>>,
     pub debug: &'a Debug,
+    /// The costs of lines, in the order of the lines; empty if that is not shown.
+    pub costs: &'a [LineCost],
 }
 
 /// The debugger's marks in a text.

@@ -2,6 +2,7 @@
 
 use super::{
     buffer::Buffer,
+    line_cost,
     lines::{Lines, MARGIN, touching},
     look::{Look, Mark},
     selection::Selection,
@@ -107,8 +108,17 @@ pub(super) fn text(
         for at in brackets.into_iter().flatten() {
             frame_letter(ui, lines, buffer, row, at);
         }
+        let cost = line_cost::of(look.costs, line);
         for run in &laid_out.runs {
-            painter.galley(lines.run_pos(row, run), run.galley.clone(), theme::of(ui).text);
+            let at = lines.run_pos(row, run);
+            match cost.is_some_and(|cost| !cost.is_reached) {
+                true => painter.galley_with_override_text_color(
+                    at,
+                    run.galley.clone(),
+                    theme::of(ui).weak.gamma_multiply(0.6),
+                ),
+                false => painter.galley(at, run.galley.clone(), theme::of(ui).text),
+            };
         }
         for mark in &marks {
             underline(ui, lines, buffer, row, mark);
@@ -116,6 +126,12 @@ pub(super) fn text(
         let mut end = lines.end(laid_out);
         if part.is_last && lines.folding.is_folded(line) {
             end = folded(ui, pos2(end + 8.0, area.center().y), lines);
+        }
+        let iterations = cost.and_then(|cost| cost.iterations.as_ref()).filter(|_| part.is_last && worst.is_none());
+        if let Some(words) = iterations {
+            let size = (lines.font.size - 1.5).max(8.0);
+            let at = pos2(end + 24.0, area.center().y);
+            painter.text(at, Align2::LEFT_CENTER, words, FontId::proportional(size), theme::of(ui).accent);
         }
         if let Some(worst) = worst {
             let room = shown.right() - end - 40.0;

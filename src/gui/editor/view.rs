@@ -6,9 +6,9 @@ use super::{
     assist::{Assist, EditorRequest},
     brackets,
     buffer::Buffer,
-    gutter::{self, Clicked, Gutter},
+    gutter::{Clicked, Gutter},
     highlight::Highlight,
-    input,
+    input, line_cost,
     lines::{Lines, MARGIN},
     look::{Help, Look},
     paint::{self, Painted},
@@ -226,7 +226,7 @@ impl CodeEditor {
 
         let whole = ui.available_rect_before_wrap();
         let digits = self.buffer.line_count().to_string().len().max(3);
-        let gutter = (digits as f32 * glyph + gutter::BESIDE).round();
+        let gutter = (digits as f32 * glyph + line_cost::beside(look.costs)).round();
         let text_rect = Rect::from_min_max(pos2((whole.left() + gutter).min(whole.right()), whole.top()), whole.max);
         // A bar that opens below the text must not cover the caret's line.
         let (height, was_seen) = self.sight;

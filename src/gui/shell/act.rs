@@ -4,6 +4,7 @@ use super::{Shell, start_folder};
 use crate::{
     gui::{
         actions::{Action, LayoutAction, PictureAction},
+        cost_map,
         help::Help,
         palette::Offer,
         panels::Panel,
@@ -97,6 +98,11 @@ impl Shell {
                 }
             }
             Action::Audit => out.ask(ToolCommand::Audit),
+            Action::CountCost => out.ask(ToolCommand::Count(!session.counts().is_on)),
+            Action::TraceCostliest => match cost_map::costliest(session) {
+                Some(at) => out.shell_commands.push(ShellCommand::Trace(at)),
+                None => out.notify(Level::Info, "Nothing is counted yet: show the cost by pixel and by line first."),
+            },
             Action::Fullscreen => {
                 self.modes.fullscreen = !self.modes.fullscreen;
                 self.viewport.focus();

@@ -2,7 +2,7 @@
 
 use super::Shell;
 use crate::{
-    gui::{error_map, halt, panels::Panel, probe, problems, recorder, report::Report, theme},
+    gui::{cost_map, error_map, halt, panels::Panel, probe, problems, recorder, report::Report, theme},
     project::{Origin, Tab},
     session::{Outcome, Session},
 };
@@ -91,6 +91,7 @@ impl Shell {
         let under = session.probe().and(self.viewport.under());
         report.say_if_new("probe", probe::report(session, under));
         report.say_if_new("audit", error_map::report(session));
+        report.say_if_new("cost", cost_map::report(session));
         let theme = if ctx.theme() == egui::Theme::Dark { "dark" } else { "light" };
         report.say_if_new("theme", json!({ "shown": theme }));
         // A widget that is not visible yet is scrolled into view in the next frames, and only then has a place to

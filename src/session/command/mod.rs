@@ -309,6 +309,9 @@ pub enum ToolCommand {
     Audit,
     /// Hides the errors of the audited pixels.
     HideAudit,
+    /// Counts what the pixels of the shown pass execute whenever the picture rests, and pauses; `false` ends that. See
+    /// [`Session::counts`](super::Session::counts).
+    Count(bool),
     /// Traces the pixel of the shown pass at a place of its picture, from 0 to 1 across and up, and pauses; `None` ends
     /// the trace. See [`Session::trace`](super::Session::trace).
     Trace(Option<[f32; 2]>),

@@ -1,6 +1,8 @@
 //! The results of tracing, comparing, measuring and other tools, for front ends.
 
-use crate::{AuditMap, CameraState, Session, TraceView, measures::Measure, pass_history::PassStep, view::TabFix};
+use crate::{
+    AuditMap, CameraState, CountsView, Session, TraceView, measures::Measure, pass_history::PassStep, view::TabFix,
+};
 use eddy_background::{Count, Status};
 use eddy_debugger::{divergence::DivergenceFound, nonfinite::SearchEnd};
 use eddy_playback::{assertion::Unmeasured, comparing::Comparison};
@@ -39,6 +41,11 @@ impl Session {
     /// listed.
     pub fn audit_map(&self) -> Option<&AuditMap> {
         self.open.audit_map()
+    }
+
+    /// Returns what the pixels of the shown pass execute ([`ToolCommand::Count`](super::ToolCommand::Count)).
+    pub fn counts(&self) -> CountsView<'_> {
+        self.open.counts()
     }
 
     /// Every measuring comment of the project, with its samples while it was watched

@@ -6,6 +6,7 @@
 //! with its seed, without the statements that the failure does not need; a single program is printed before it is
 //! drawn.
 
+mod counts;
 mod random;
 
 use crate::support::{env::number, *};

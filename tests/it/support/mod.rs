@@ -4,6 +4,7 @@
 pub(crate) mod clock;
 pub(crate) mod compiled;
 pub(crate) mod compute;
+pub(crate) mod counted;
 pub(crate) mod display;
 pub(crate) mod drops;
 pub(crate) mod env;

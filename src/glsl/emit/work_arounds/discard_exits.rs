@@ -9,13 +9,14 @@ use crate::{
     ast::Loc,
     ir::{
         Block, Function, GlobalId, GlobalKind, Module, Op, Stmt,
+        analysis::discards::{self, may_discard},
         rewrite::{self, Rewriter, Rule},
     },
     types::{Scalar, TypeId},
 };
 
 pub(super) fn run(program: &mut Module) {
-    let discards = discards(program);
+    let discards = discards::functions(program);
     if !discards.contains(&true) {
         return;
     }
@@ -32,24 +33,6 @@ pub(super) fn run(program: &mut Module) {
             rewrite::function(program, index, &mut Exits { flag, loops: loops.into_iter() });
         }
     }
-}
-
-/// Returns for each function whether it, or one that it calls, may discard.
-fn discards(program: &Module) -> Vec<bool> {
-    let mut discards = Vec::with_capacity(program.functions.len());
-    for f in &program.functions {
-        discards.push(may_discard(f, &f.body, &discards));
-    }
-    discards
-}
-
-/// Returns whether a block may discard; `discards` are the functions that do.
-fn may_discard(f: &Function, block: &Block, discards: &[bool]) -> bool {
-    block.iter().any(|stmt| match stmt {
-        Stmt::Discard => true,
-        Stmt::Let(value) => matches!(f[*value], Op::Call { function, .. } if discards[function.index()]),
-        other => other.any_block(|block| may_discard(f, block, discards)),
-    })
 }
 
 /// The loops that a discarded fragment may reach.

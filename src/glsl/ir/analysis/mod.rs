@@ -6,6 +6,7 @@
 //! what a driver may know on any path.
 
 mod counters;
+pub mod discards;
 mod effects;
 mod ends;
 mod exposed;

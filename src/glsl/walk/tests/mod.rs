@@ -13,7 +13,7 @@ use eddy_diag::SourceId;
 const LIMIT: u64 = 1_000_000;
 
 /// A world without textures; iTime is 2, the resolution 8x4.
-pub(super) struct Bare(UniformBlock);
+pub(crate) struct Bare(UniformBlock);
 
 impl Default for Bare {
     fn default() -> Self {
