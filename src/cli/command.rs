@@ -3,7 +3,7 @@
 
 use super::args::{
     BenchArgs, CheckArgs, CompareArgs, CompletionsArgs, ConvertArgs, DoctorArgs, ExportArgs, HostProgram, ImportArgs,
-    LabArgs, ListArgs, LspArgs, ManArgs, ProbeArgs, RenderArgs, TraceArgs, TranslateArgs, TryCompileArgs,
+    LabArgs, ListArgs, LspArgs, ManArgs, ProbeArgs, RenderArgs, TraceArgs, TranslateArgs, TryCompileArgs, TuneArgs,
 };
 use crate::playback::trial;
 use clap::Subcommand;
@@ -84,6 +84,8 @@ commands! {
     Check(CheckArgs),
     /// Measure the time and memory of a frame, after a warm-up
     Bench(BenchArgs),
+    /// Find a cheaper setting of the quality constants within a bound of error, or the best within a budget of time
+    Tune(TuneArgs),
     /// Measure methods against a reference: speed against error, as tables, plots and an HTML page
     Lab(LabArgs),
     /// List the presets, one per line

@@ -44,6 +44,7 @@ mod text_place;
 mod tiles;
 mod trace;
 mod translate;
+mod tune;
 mod written;
 
 use crate::diag::escape_line;
