@@ -93,6 +93,7 @@ impl ProjectTuning {
 fn work(job: TuneJob, control: &Control<Progress>) -> Result<Arc<TuneOutcome>, String> {
     let TuneJob { gpu, project, revision, media_dir, size, options } = job;
     let bound = Bound::parse(&options.bound)?;
+    let gpu = gpu.for_background();
     let mut found = Found::new(&project);
     // Sizes and formats are edits of passes, which are not applied from here.
     found.knobs.retain(|knob| matches!(knob.target, Target::Number { .. } | Target::Uniform));
