@@ -8,8 +8,6 @@
 mod bench;
 pub mod converge;
 mod discover;
-#[cfg(test)]
-mod discover_tests;
 mod knob;
 mod metric;
 pub mod search;

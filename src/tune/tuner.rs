@@ -22,7 +22,7 @@ pub struct Request {
     pub budget: Option<f64>,
     /// Errors are measured against the present setting instead of the converged one.
     pub against_present: bool,
-    /// The time in which the search is to end. What has begun is finished.
+    /// The time in which the search is to end. A measurement that has started is completed.
     pub limit: Duration,
     /// Settings that were chosen before, perhaps on another device: they are measured first.
     pub earlier: Vec<Vec<f64>>,

@@ -12,6 +12,7 @@ use crate::{
 use anyhow::{Context, anyhow};
 use std::{
     fmt::Write,
+    fs,
     path::{Path, PathBuf},
 };
 
@@ -89,30 +90,25 @@ impl Changes {
             }
             Origin::Unsaved => return Err(anyhow!("--apply: {} is not on disk; use --out DIR", one_line(spec))),
         };
-        let parent = if target.is_dir() { target.clone() } else { target.parent().unwrap_or(Path::new("")).to_owned() };
+        let parent = if target.is_dir() { &target } else { target.parent().unwrap_or(Path::new("")) };
+        let mut files: Vec<PathBuf> = self.before.tab_sources().filter_map(|source| source.path.clone()).collect();
+        files.extend([target.clone(), target.join("eddy.toml")]);
+        let old: Vec<(PathBuf, Vec<u8>)> =
+            files.into_iter().filter_map(|path| Some((path.clone(), fs::read(&path).ok()?))).collect();
         let kept =
             (1..).map(|n| parent.join(format!("before-tune-{n}"))).find(|path| !path.exists()).unwrap_or_default();
         project::save(&self.after, &target, Overwrite::KeepIn(&kept))?;
-        // Files of the project itself are replaced without a copy, so that is made here.
-        let mut copies = Vec::new();
-        for source in self.before.tab_sources() {
-            let new = self.after.tab_sources().find(|other| other.name == source.name);
-            if let Some(path) = source.path.as_ref().filter(|_| new.is_some_and(|new| new.text != source.text)) {
-                copies.push((path.clone(), source.text.to_string()));
-            }
-        }
-        Ok(format!("written to {}{}\n", target.display(), self.keep(&kept, &copies)?))
-    }
-
-    /// Writes copies of old texts into a folder. Returns how they are restored.
-    fn keep(&self, folder: &Path, copies: &[(PathBuf, String)]) -> anyhow::Result<String> {
-        if copies.is_empty() && !folder.exists() {
-            return Ok(String::new());
-        }
-        let name = |path: &PathBuf| path.file_name().and_then(|name| name.to_str()).unwrap_or("text").to_owned();
-        let named: Vec<(String, &[u8])> = copies.iter().map(|(path, text)| (name(path), text.as_bytes())).collect();
-        written::write_all(folder, named.iter().map(|(name, bytes)| (name.as_str(), *bytes)), true)?;
-        Ok(format!("; the old files are in {}, copy them back to undo this", folder.display()))
+        // Files of the project itself are replaced without a copy, so these are made here.
+        let is_changed = |(path, bytes): &(PathBuf, Vec<u8>)| fs::read(path).ok().as_ref() != Some(bytes);
+        let changed: Vec<(PathBuf, Vec<u8>)> = old.into_iter().filter(is_changed).collect();
+        let name = |path: &Path| path.file_name().and_then(|name| name.to_str()).unwrap_or("text").to_owned();
+        let copies: Vec<(String, &[u8])> = changed.iter().map(|(path, bytes)| (name(path), bytes.as_slice())).collect();
+        written::write_all(&kept, copies.iter().map(|(name, bytes)| (name.as_str(), *bytes)), true)?;
+        Ok(format!(
+            "written to {}; the old files are in {}, copy them back to undo this\n",
+            target.display(),
+            kept.display()
+        ))
     }
 
     /// Writes the tuned project, and a picture of both settings for each compared frame. Returns the names.

@@ -1,6 +1,6 @@
 //! Numbers of a program on which its amount of work depends: what bounds its loops, their steps, and what ends them.
 //!
-//! Owns the rules by which a number counts as one ([`Role`]) and the place where its text stands ([`Number::span`]). Works
+//! Owns the rules by which a number counts as one ([`Role`]) and the place of its text ([`Number::span`]). Works
 //! on the syntax tree, where numbers and names are as the author wrote them: the checker folds constants. Values are
 //! followed through macros, constants, variables and parameters of functions, without regard to the order of
 //! assignments: what a number may reach counts.

@@ -1,5 +1,8 @@
 //! Finds the knobs of a project, and says of numbers that look like some why they are none.
 
+#[cfg(test)]
+mod tests;
+
 use crate::{
     knob::{Kind, Knob, Target, half},
     search::Ladder,
