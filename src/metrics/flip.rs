@@ -116,7 +116,7 @@ fn features(luma: &[f64], width: usize) -> [Vec<f64>; 2] {
     [strength(edge), strength(point)]
 }
 
-/// What is computed of one picture alone: a reference is prepared once, and compared often.
+/// The part of the work that needs one picture alone: a reference is prepared once, and compared often.
 #[derive(Clone, Debug)]
 pub struct Prepared {
     width: usize,

@@ -20,7 +20,7 @@ const FPS: f64 = 60.0;
 /// Knobs that are tried at once.
 const MOST_KNOBS: usize = 6;
 
-/// What the open project is tuned for.
+/// The aim of a search in the window.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TuneOptions {
     /// The error that is allowed: see [`Bound::parse`].

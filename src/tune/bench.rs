@@ -15,8 +15,10 @@ use std::time::Instant;
 const SEED_SECS: f64 = 1e-3;
 /// Frames that are timed of each setting and of the present one.
 const TIMED: usize = 3;
+/// A frame that takes longer is timed once: its time varies less, and there is less of it to spend.
+const SLOW_MILLIS: f64 = 300.0;
 
-/// What is drawn.
+/// The project, its inputs and the frames that are drawn.
 #[derive(Clone)]
 pub struct Scene {
     pub project: Project,
@@ -120,8 +122,8 @@ impl<'s> Bench<'s> {
     pub(crate) fn draw(
         &mut self,
         values: &[f64],
-        at: &[u32],
-        seeds: u32,
+        (at, seeds): (&[u32], u32),
+        is_timed: bool,
     ) -> Result<Result<Shots, String>, EngineError> {
         let mut running = match self.open(values)? {
             Ok(running) => running,
@@ -154,17 +156,18 @@ impl<'s> Bench<'s> {
         if millis.len() > 1 {
             millis.remove(0);
         }
-        let ratio = self.ratio(&mut running)?;
+        let ratio = if is_timed { self.ratio(&mut running)? } else { f64::NAN };
         let present = median(self.present_millis.clone()).unwrap_or(f64::NAN);
         let own = median(millis).unwrap_or(f64::NAN);
-        Ok(Ok(Shots { pictures, millis: if present.is_finite() { ratio * present } else { own } }))
+        Ok(Ok(Shots { pictures, millis: if ratio.is_finite() { ratio * present } else { own } }))
     }
 
     /// Draws frames of a setting and of the present one alternately, and returns the median ratio of their times.
     fn ratio(&mut self, running: &mut Running) -> Result<f64, EngineError> {
         let Some(present) = &mut self.present else { return Ok(f64::NAN) };
         let mut ratios = Vec::new();
-        for turn in 0..TIMED + 1 {
+        let is_slow = self.present_millis.last().is_some_and(|millis| *millis > SLOW_MILLIS);
+        for turn in 0..if is_slow { 2 } else { TIMED + 1 } {
             let (a, b) = match turn % 2 {
                 0 => {
                     let a = running.timed(self.knobs, self.scene)?;

@@ -3,7 +3,7 @@
 //! Each knob is made more exact alone, by factors of two in cost. The change of the picture from one value to the next
 //! says whether it converges: a method of order p changes by 2^-p of the change before.
 
-/// What became of a knob when it was made more exact.
+/// The behaviour of a knob when it was made more exact.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 #[serde(rename_all = "lowercase", tag = "state")]
 pub enum Convergence {

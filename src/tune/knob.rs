@@ -5,7 +5,7 @@ use eddy_diag::{Edit, Fix, Span};
 use eddy_glsl::knobs::NumberType;
 use eddy_project::{CustomUniformType, CustomUniformValue, Filter, PassName, PassSize, Project, TexelFormat};
 
-/// What a knob changes.
+/// The part of a project that a knob changes.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Target {
     /// A number in a text of the project.
@@ -16,9 +16,9 @@ pub enum Target {
     Size(PassName),
     /// The bits of a component of a buffer: 32 or 16.
     Bits(PassName),
-    /// Whether a channel reads mip levels of a buffer: 1 or 0.
+    /// A channel reads mip levels of a buffer: 1 or 0.
     Mips(PassName, usize),
-    /// How often a group of passes is drawn in a frame.
+    /// The number of times that a group of passes is drawn in a frame.
     Steps(String),
 }
 
@@ -29,7 +29,7 @@ impl Target {
     }
 }
 
-/// What a larger value means for the picture.
+/// The meaning of a value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Iterations, samples, steps of a method.
@@ -38,7 +38,7 @@ pub enum Kind {
     Step,
     /// A difference at which a loop stops.
     Tolerance,
-    /// How far a loop goes.
+    /// The reach of a loop.
     Distance,
     /// A setting of the project.
     Setting,
@@ -47,7 +47,7 @@ pub enum Kind {
 /// A number or setting that is tried with other values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Knob {
-    /// What `--knob`, `--fix` and `--range` call it: unique in the project.
+    /// The name for `--knob`, `--fix` and `--range`: unique in the project.
     pub name: String,
     pub target: Target,
     pub kind: Kind,
@@ -58,7 +58,7 @@ pub struct Knob {
     pub place: String,
     /// The column of a number, counted from 1 in characters.
     pub column: Option<usize>,
-    /// Why it is a knob: a sentence.
+    /// The reason why it is a knob: a sentence.
     pub why: String,
     /// The values that are tried, in ascending order.
     pub ladder: Ladder,

@@ -5,7 +5,7 @@ use eddy_metrics::{Norms, difference::screen, flip, picture};
 use eddy_playback::assertion::{Assertion, Conditions};
 use eddy_project::PassName;
 
-/// How errors are measured. Each error is 0 for equal pictures, and larger for worse ones.
+/// The measure of errors. Each error is 0 for equal pictures, and larger for worse ones.
 #[derive(Clone, Debug)]
 pub enum Metric {
     /// The mean of the FLIP map.
@@ -41,7 +41,7 @@ impl Bound {
         let bound = |metric, limit| Ok(Bound { metric, limit, text: text.to_owned() });
         let words: Vec<&str> = text.split_whitespace().collect();
         let (first, rest) = (words.first().copied().unwrap_or(""), words.get(1..).unwrap_or_default().join(" "));
-        let name = first.trim_end_matches(['<', '>', '=', '.']);
+        let name = &first[..first.find(|c: char| !c.is_alphanumeric()).unwrap_or(first.len())];
         let number = |sign: char, rest: &str| -> Result<f64, String> {
             let shape = || format!("{text}: write {name} {sign} and a number, as in \"flip < .02\" or \"psnr > 40\"");
             let rest = rest.trim().strip_prefix(sign).ok_or_else(shape)?;
@@ -64,7 +64,10 @@ impl Bound {
                     .split_once('<')
                     .ok_or_else(|| format!("{text}: write l2 PASS < NUMBER, as in l2 buffer_a < 1e-3"))?;
                 let pass = PassName::parse(pass.trim()).ok_or_else(|| {
-                    format!("{text}: \"{}\" is no pass with a picture; write buffer_a, image or the like", pass.trim())
+                    format!(
+                        "{text}: \"{}\" is not a pass with a picture; write buffer_a, image or the like",
+                        pass.trim()
+                    )
                 })?;
                 bound(Metric::L2(pass), number('<', &format!("<{rest}"))?)
             }
@@ -172,9 +175,11 @@ pub(crate) fn mean_picture(pictures: &[Pixels]) -> Option<Pixels> {
 mod tests {
     use super::*;
 
-    fn ramp(offset: f32) -> Pixels {
-        let texels =
-            (0..24 * 16).map(|i| [(i % 24) as f32 / 24.0 + offset, (i / 24) as f32 / 16.0, 0.5, 1.0]).collect();
+    /// A ramp, with stripes of this brightness.
+    fn ramp(stripes: f32) -> Pixels {
+        let texels = (0..24 * 16)
+            .map(|i| [(i % 24) as f32 / 48.0 + stripes * (i % 2) as f32, (i / 24) as f32 / 16.0, 0.5, 1.0])
+            .collect();
         Pixels { width: 24, height: 16, texels }
     }
 
@@ -193,9 +198,9 @@ mod tests {
             let small = Pixels { width: 8, height: 1, texels: vec![[0.0; 4]; 8] };
             assert!(text.contains("mean") || error(text, &small, &good) == f64::INFINITY, "{text}");
         }
-        assert!((error("psnr > 40", &bad, &good) - 0.2 / 3f64.sqrt()).abs() < 0.01);
+        assert!((error("psnr > 40", &bad, &good) - 0.2 / 6f64.sqrt()).abs() < 0.01);
         let mean = mean_picture(&[ramp(0.0), ramp(0.5)]).unwrap();
-        assert!((mean.texels[0][0] - 0.25).abs() < 1e-6);
+        assert!((mean.texels[1][0] - 1.0 / 48.0 - 0.25).abs() < 1e-6);
     }
 
     #[test]
@@ -211,7 +216,7 @@ mod tests {
             ("flip > 2", "flip <"),
             ("ssim > 1", "below 1"),
             ("psnr", "psnr >"),
-            ("l2 < 1", "no pass"),
+            ("l2 < 1", "not a pass"),
             ("fine", "claim"),
         ] {
             let message = Bound::parse(text).expect_err(text);

@@ -12,7 +12,7 @@ use eddy_gpu::Gpu;
 use eddy_playback::assertion::{self, Conditions};
 use std::time::{Duration, Instant};
 
-/// What a project is tuned for.
+/// A project, its knobs and the aim of the search.
 #[derive(Clone)]
 pub struct Request {
     pub scene: Scene,
@@ -35,7 +35,7 @@ pub struct Request {
 /// The state of a search.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Progress {
-    /// What is drawn at present.
+    /// The setting that is drawn at present.
     pub doing: String,
     /// Settings that were drawn.
     pub measured: usize,
@@ -126,9 +126,18 @@ impl Tuner<'_> {
     }
 
     fn draw(&mut self, values: &[f64], at: &[u32], seeds: u32) -> Result<Option<Shots>, TuneError> {
+        self.draw_and_time(values, (at, seeds), true)
+    }
+
+    fn draw_and_time(
+        &mut self,
+        values: &[f64],
+        (at, seeds): (&[u32], u32),
+        is_timed: bool,
+    ) -> Result<Option<Shots>, TuneError> {
         let name = self.named(values);
         self.say(name)?;
-        let drawn = self.bench.draw(values, at, seeds)?;
+        let drawn = self.bench.draw(values, (at, seeds), is_timed)?;
         self.progress.measured += 1;
         Ok(match drawn {
             Ok(shots) => {
@@ -253,7 +262,7 @@ impl Tuner<'_> {
         if self.bench.has_state {
             return Ok(0.0);
         }
-        let Some(shots) = self.draw(present, &at[..1], 2)? else { return Ok(0.0) };
+        let Some(shots) = self.draw_and_time(present, (&at[..1], 2), false)? else { return Ok(0.0) };
         let [a, b] = [0, 1].map(|i| self.metric.prepared(&shots.pictures[i]));
         Ok(self.one_error(&a, &b))
     }
@@ -335,7 +344,7 @@ impl Tuner<'_> {
         if let Some((_, shots)) = known {
             return Ok(self.prepared(shots, 1));
         }
-        match self.draw(&converged.clone(), at, seeds)? {
+        match self.draw_and_time(&converged.clone(), (at, seeds), false)? {
             Some(shots) => Ok(self.prepared(&shots, seeds)),
             None => {
                 *converged = present.to_vec();
@@ -463,10 +472,14 @@ impl Tuner<'_> {
                 continue;
             }
             if truth.is_none() {
-                let shots = self.draw(converged, &held_out, reference_seeds)?;
+                let shots = self.draw_and_time(converged, (&held_out, reference_seeds), false)?;
                 truth = shots.map(|shots| self.prepared(&shots, reference_seeds));
             }
-            let (Some(truth), Some(shots)) = (&truth, self.draw(&point.values, &held_out, self.seeds)?) else { break };
+            let (Some(truth), Some(shots)) =
+                (&truth, self.draw_and_time(&point.values, (&held_out, self.seeds), false)?)
+            else {
+                break;
+            };
             let error = self.error(&shots, self.seeds, truth).max(point.error);
             match goal {
                 Goal::Error(_) if error > request.bound.limit => strictest = point.error * 0.9,

@@ -35,7 +35,7 @@ impl Proposal {
     }
 }
 
-/// What was measured of a project.
+/// The measurements of a project, and the proposed setting.
 #[derive(Clone, Debug)]
 pub struct Tuning {
     pub device: String,

@@ -51,7 +51,7 @@ fn run(args: &TuneArgs) -> io::Result<u8> {
     Ok(printer.exit_code())
 }
 
-/// What a call prints.
+/// The output of a call.
 struct Done {
     words: String,
     json: serde_json::Value,
@@ -74,6 +74,11 @@ fn tuned(machine: &mut Machine, report: &mut Report, args: &TuneArgs) -> Result<
     if found.knobs.is_empty() {
         let message = "this project has no knob: no constant, macro or slider bounds a loop (--list has the reasons)";
         return Err(anyhow!(message).into());
+    }
+    let (pass, _) = args.error.metric.reads();
+    if project.pass(&pass).is_none() {
+        let why = "the project has no such pass; an error is flip, ssim, psnr, l2 PASS or a claim about a pass";
+        return Err(anyhow!("--error {}: {why}", args.error.text).into());
     }
     let (media, missing) = media::gather(&project, args.run.media.as_deref());
     report.diagnose(&missing, &project.sources(), Some(&project));

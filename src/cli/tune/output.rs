@@ -1,4 +1,4 @@
-//! What `eddy tune` prints: tables, JSON and the plot.
+//! The output of `eddy tune`: tables, JSON and the plot.
 
 use super::super::{report::Report, terminal::one_line};
 use crate::{

@@ -39,7 +39,7 @@ impl NumberType {
     }
 }
 
-/// How a number is declared.
+/// The declaration of a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Declared {
     /// `#define NAME 64`
@@ -54,7 +54,7 @@ pub enum Declared {
     Uniform,
 }
 
-/// What a number does to the amount of work.
+/// The effect of a number on the amount of work.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum RoleKind {
     /// It bounds the iterations of a loop.
@@ -100,7 +100,7 @@ pub struct Number {
     pub span: Span,
     pub value: f64,
     pub ty: NumberType,
-    /// In the order of the text. Numbers that a name stands for are listed without any, too.
+    /// In the order of the text. Numbers with a name are listed even without any.
     pub roles: Vec<Role>,
 }
 

@@ -59,7 +59,7 @@ fn refused_numbers_have_reasons() {
 
 #[test]
 fn names_choose_fix_and_range_knobs() {
-    let text = format!("#define STEPS 64\n#define GAIN 3.0\n{LOOP}");
+    let text = format!("#define STEPS 64\n#define GAIN 3.0\nfloat gain() {{ return GAIN; }}\n{LOOP}");
     let mut found = found(&text);
     assert!(found.choose(&["STEP".into()]).unwrap_err().contains("the knobs are STEPS"));
     found.knob_mut("STEPS").unwrap().set_range(Range::parse("16..64:16").unwrap()).unwrap();

@@ -21,7 +21,7 @@ pub struct Point {
     pub error: f64,
 }
 
-/// What is searched for.
+/// The aim of a search.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Goal {
     /// The cheapest setting whose error is at most this.
@@ -72,7 +72,7 @@ impl Goal {
     }
 }
 
-/// What measures settings. `None`: the setting cannot be drawn. An error ends the search.
+/// The subject of a search, which measures settings. `None`: the setting cannot be drawn. An error ends the search.
 pub trait Measure<E> {
     fn measure(&mut self, values: &[f64]) -> Result<Option<Point>, E>;
 
