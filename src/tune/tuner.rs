@@ -499,6 +499,11 @@ impl Tuner<'_> {
         };
         let best = (0..kept.len()).min_by(|a, b| rank(*a).total_cmp(&rank(*b))).unwrap_or(0);
         let (point, checked_error) = kept.swap_remove(best);
+        // The present setting beside itself would only show the noise of the measurement.
+        if point.values == present {
+            let present_millis = point.millis;
+            return Ok(Some(Proposal { point, checked_error, present_millis }));
+        }
         Ok(Some(Proposal {
             point: Point { millis: times[best + 1], ..point },
             checked_error,

@@ -20,11 +20,7 @@ use egui::{Label, ProgressBar, RichText, ScrollArea, TextEdit, Ui, vec2};
 pub(crate) const PANEL: PanelRow =
     PanelRow::new("speed", "Speed and error", DefaultPlace::BelowCodeLarge, Content::Within(MARGIN, show))
         .report(|state, _, session| report(&state.speed, session))
-        .action(
-            "Panel: Speed and error (of this project)",
-            &[],
-            "tune faster quality performance optimise pareto frontier",
-        );
+        .action("Panel: Speed and error (of this project)", &[], "tune faster quality optimise pareto frontier");
 
 /// The width of the knobs beside the plot.
 const KNOBS: f32 = 330.0;
