@@ -3,7 +3,8 @@
 
 use super::args::{
     BenchArgs, CheckArgs, CompareArgs, CompletionsArgs, ConvertArgs, DoctorArgs, ExportArgs, HostProgram, ImportArgs,
-    LabArgs, ListArgs, LspArgs, ManArgs, ProbeArgs, RenderArgs, TraceArgs, TranslateArgs, TryCompileArgs, UnusedArgs,
+    LabArgs, ListArgs, LspArgs, ManArgs, ProbeArgs, RenderArgs, TraceArgs, TranslateArgs, TryCompileArgs, TuneArgs,
+    UnusedArgs,
 };
 use crate::playback::trial;
 use clap::Subcommand;
@@ -86,6 +87,8 @@ commands! {
     Bench(BenchArgs),
     /// List the work of a project that nothing depends on, what it costs, and what of it is left out already
     Unused(UnusedArgs),
+    /// Find a cheaper setting of the quality constants within a bound of error, or the best within a budget of time
+    Tune(TuneArgs),
     /// Measure methods against a reference: speed against error, as tables, plots and an HTML page
     Lab(LabArgs),
     /// List the presets, one per line

@@ -16,7 +16,7 @@ use crate::{
     debugger::trace::Number,
     diag::{Diagnostic, SourceMap},
     engine::Pixels,
-    lab::difference::{self, PictureDifference, Times},
+    metrics::difference::{self, PictureDifference, Times},
     playback::{
         capture::Format,
         offline::Offline,

@@ -45,6 +45,7 @@ mod text_place;
 mod tiles;
 mod trace;
 mod translate;
+mod tune;
 mod unused;
 mod written;
 

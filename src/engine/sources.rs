@@ -330,6 +330,16 @@ impl<'p> Sources<'p> {
         self.lower_stage(index, own, |source| glsl::probe_places(source, self.preamble(), spans))
     }
 
+    /// Returns the numbers of `project.passes[index]` on which its amount of work depends, and those that have a name; see
+    /// [`glsl::knobs`]. Those of several stages may occur in several.
+    ///
+    /// # Panics
+    /// If there is no such pass.
+    pub fn numbers(&self, index: usize) -> Vec<glsl::knobs::Number> {
+        let stages = self.pass(index).body.drawn_stages();
+        stages.into_iter().flat_map(|stage| self.with_stage(index, stage, glsl::knobs::numbers)).collect()
+    }
+
     /// Analyses `project.passes[index]` for an editor, whether it compiles or not.
     ///
     /// # Panics

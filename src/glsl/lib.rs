@@ -95,6 +95,7 @@ mod diagnostics;
 mod dialects;
 mod driver;
 mod front_end;
+pub mod knobs;
 mod lex;
 mod near;
 mod pieces;

@@ -64,6 +64,7 @@ mod settings_page;
 mod shell;
 mod sound;
 mod sound_bar;
+mod speed;
 mod surface;
 mod surface_faults;
 mod system_theme;

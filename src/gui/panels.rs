@@ -13,7 +13,7 @@ use super::{
     picture, recorder,
     recorder::Recorder,
     settings::Settings,
-    sound,
+    sound, speed,
     thumbnails::Thumbnails,
     trace, transport,
     ui_output::UiOutput,
@@ -57,6 +57,7 @@ panels! {
     Trace: trace::PANEL, debugger: trace::Debugger;
     Buffers: buffers::PANEL, buffers: buffers::Buffers;
     Compare: compare::PANEL, compare: compare::Compare;
+    Speed: speed::PANEL, speed: speed::Speed;
     Measurements: measures::PANEL, measurements: measures::Measurements;
     Sound: sound::PANEL, sound: sound::Sound;
     Recorder: recorder::PANEL;

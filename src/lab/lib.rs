@@ -8,14 +8,10 @@
 
 pub mod background_run;
 pub mod cost;
-pub mod difference;
 mod error;
-pub mod flip;
 pub mod metrics;
-mod number;
 pub mod open;
 mod page_style;
-pub mod picture;
 pub mod precision;
 mod present;
 pub mod preset_pictures;
@@ -31,9 +27,9 @@ mod stop;
 pub mod studies;
 mod study;
 
+pub use eddy_metrics::Number;
 pub use eddy_playback::shard::Shard;
 pub use error::LabError;
-pub use number::Number;
 pub use present::PresentFingerprints;
 pub use results::{CostRecord, ErrorRecord, FILE as RESULTS_FILE, Provenance, Record, Results};
 pub use rig::{Field, Rig, Running};

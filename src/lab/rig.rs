@@ -3,6 +3,7 @@
 use super::{LabError, Setup, Stop, setup::pass};
 use eddy_engine::{BuildOptions, Engine, FrameInputs, Pixels, Program};
 use eddy_gpu::Gpu;
+use eddy_metrics::picture::Picture;
 
 /// The maximum number of frames in flight.
 const FRAMES_IN_FLIGHT: u32 = 8;
@@ -121,5 +122,11 @@ impl Field {
 
     pub fn texels(&self) -> &[[f32; 4]] {
         &self.0.texels
+    }
+
+    /// Returns the colours, without alpha.
+    pub fn picture(&self) -> Picture {
+        let rgb = self.0.texels.iter().map(|t| [0, 1, 2].map(|i| f64::from(t[i]))).collect();
+        Picture::new(self.width(), rgb)
     }
 }

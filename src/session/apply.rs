@@ -158,6 +158,7 @@ impl OpenProject {
             ToolCommand::FindDivergence => self.want_divergence(),
             ToolCommand::FindNonfinite(is_wanted) => self.nan_search.want(is_wanted),
             ToolCommand::Compare(against) => self.comparison.want(against),
+            ToolCommand::Tune(options) => self.tuning.want(options),
             ToolCommand::Trace(at) => {
                 if at.is_some() {
                     self.pause();

@@ -62,6 +62,7 @@ mod structure;
 mod template;
 mod trace;
 mod transport;
+mod tune;
 mod uniforms;
 pub mod view;
 
@@ -94,6 +95,7 @@ pub use recovery::{KEPT_DAYS, folder as recovery_folder, place_for_replaced};
 pub use sound::SoundView;
 pub use state::Session;
 pub use trace::TraceView;
+pub use tune::{SettingEdit, TuneOptions, TuneOutcome};
 pub use view::{
     About, CompileState, FallbackPicture, Halt, Level, Notice, Outcome, TabDiagnostic, TabEdit, TabFix, TabLabel, Tick,
     Transport,

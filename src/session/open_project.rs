@@ -20,6 +20,7 @@ use super::{
     playback::Playback,
     read_back::ReadBacks,
     trace::PixelTrace,
+    tune::ProjectTuning,
     uniforms::TextUniforms,
 };
 use eddy_project::PassName;
@@ -48,6 +49,7 @@ pub(super) struct OpenProject {
     /// The search for the first NaN.
     pub nan_search: NanSearch,
     pub comparison: ProjectComparison,
+    pub tuning: ProjectTuning,
 }
 
 /// The picture of the shown pass.
@@ -83,6 +85,7 @@ impl OpenProject {
             counts: PictureCounts::default(),
             nan_search: NanSearch::new(wake.clone()),
             comparison: ProjectComparison::new(wake.clone()),
+            tuning: ProjectTuning::new(wake.clone()),
             host,
         }
     }
@@ -105,9 +108,9 @@ impl OpenProject {
 
     /// Ends the project. Returns the threads that end soon.
     pub(super) fn close(self) -> impl Iterator<Item = JoinHandle<()>> {
-        let Self { trace, audit, nan_search, comparison, .. } = self;
-        let others = [audit.close(), nan_search.background.abandon(), comparison.background.abandon()];
-        trace.close().into_iter().chain(others).flatten()
+        let Self { trace, audit, nan_search, comparison, tuning, .. } = self;
+        let searches = [nan_search.background.abandon(), comparison.background.abandon(), tuning.background.abandon()];
+        trace.close().into_iter().chain([audit.close()]).chain(searches).flatten()
     }
 
     /// Returns all pending changes, which are about to be submitted.

@@ -101,6 +101,7 @@ impl Session {
         self.services.captures.retry();
         self.open.nan_search.background.renew_request();
         self.open.comparison.background.renew_request();
+        self.open.tuning.background.renew_request();
         self.open.audit.renew_request();
         self.open.counts.renew_request();
         self.open.trace.renew_request();
@@ -117,6 +118,7 @@ impl Session {
         self.open.search_frames(&device);
         self.open.find_divergence(&device);
         self.open.compare(&device);
+        self.open.tune(&device);
         self.open.audit();
         self.open.take_counts();
         self.open.trace_pixel(has_frame);
@@ -129,6 +131,7 @@ impl OpenProject {
         self.nan_search.request_input(tasks);
         self.trace.divergence.request_input(tasks);
         self.comparison.request_input(tasks);
+        self.tuning.request_input(tasks);
         self.audit.request_input(&self.picture.shown, tasks);
         if self.playback.is_settled() {
             self.trace.request_input(tasks);

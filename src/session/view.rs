@@ -134,7 +134,7 @@ pub struct TabEdit {
 
 impl TabFix {
     /// Returns `None` for a fix in a text that is not a tab.
-    fn new(fix: &Fix, sources: &SourceMap, project: &Project) -> Option<Self> {
+    pub(crate) fn new(fix: &Fix, sources: &SourceMap, project: &Project) -> Option<Self> {
         let edit = |edit: &Edit| {
             let range = edit.span.range();
             let replaced = sources.get(edit.span.source)?.text.get(range.clone())?.to_owned();

@@ -2,14 +2,19 @@
 //! reflections, measured as in the studies, at the presets' own settings.
 
 use crate::support::rig;
-use eddy::lab::{
-    Rig, flip,
-    picture::{psnr, ssim},
-    reference::{rays::Errors, star::Star},
-    studies::{
-        ao, ao_closed,
-        bloom::{self, PERIOD, SpotExtremes},
-        ssr, taa,
+use eddy::{
+    lab::{
+        Rig,
+        reference::{rays::Errors, star::Star},
+        studies::{
+            ao, ao_closed,
+            bloom::{self, PERIOD, SpotExtremes},
+            ssr, taa,
+        },
+    },
+    metrics::{
+        flip,
+        picture::{psnr, ssim},
     },
 };
 

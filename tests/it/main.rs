@@ -122,6 +122,7 @@ mod tiles;
 mod time_travel;
 mod tools;
 mod translate;
+mod tune;
 mod uniform_values;
 mod uniforms;
 mod unloaded_channels;

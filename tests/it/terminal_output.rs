@@ -155,6 +155,9 @@ fn calls<'a>(command: &str, good: &'a str, bad: &'a str, out: &'a str) -> Vec<Ve
             all.push(with(&["render", good, good, "--out", out]));
             all
         }
+        "tune" => {
+            vec![vec!["tune", good, "--list"], vec!["tune", bad, "--list"], with(&["tune", good]), with(&["tune", bad])]
+        }
         "probe" => [good, bad].map(|p| with(&["probe", p, "--at", "image:2:7"])).into(),
         "trace" => [good, bad].map(|p| with(&["trace", p, "--pixel", "1,1"])).into(),
         "compare" => vec![with(&["compare", good, good]), with(&["compare", good, bad])],

@@ -6,6 +6,7 @@ mod lab;
 mod render;
 mod run;
 mod tools;
+mod tune;
 mod values;
 
 pub(super) use elsewhere::{Consumer, HostProgram};
@@ -14,6 +15,8 @@ pub(super) use lab::{LabArgs, LabCommand, PrecisionArgs, StabilityArgs};
 pub(super) use render::RenderArgs;
 pub(super) use run::RunArgs;
 pub(super) use tools::{CompletionsArgs, DoctorArgs, ListArgs, LspArgs, ManArgs, TranslateArgs, TryCompileArgs};
+
+pub(super) use tune::TuneArgs;
 
 use super::{command::Command, sweep::Sweep};
 use crate::{glsl::opt::PassSet, playback::script::ScriptedInputs, video::CameraSource};

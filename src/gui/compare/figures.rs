@@ -3,7 +3,7 @@
 use crate::{
     background::{Background, Control, Wake},
     engine::Pixels,
-    lab::difference::{PictureDifference, Times},
+    metrics::difference::{PictureDifference, Times},
     playback::comparing::Comparison,
 };
 use egui::ColorImage;

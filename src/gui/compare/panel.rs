@@ -12,7 +12,7 @@ use crate::{
         theme,
         ui_output::{Pick, ShellCommand, UiOutput},
     },
-    lab::difference::{PictureDifference, Times},
+    metrics::difference::{PictureDifference, Times},
     playback::comparing::Comparison,
     session::{Command, Count, Outcome, Session, Status, ToolCommand},
 };

@@ -3,7 +3,7 @@
 use super::figures::{self, Figures};
 use crate::{
     background::Background,
-    lab::difference,
+    metrics::difference,
     playback::comparing::{Baseline, Comparison},
     session::{Session, Status},
 };

@@ -7,7 +7,7 @@ use egui_plot::{GridInput, GridMark};
 const SPARSE: [(f64, i64); 2] = [(40.0, 10), (14.0, 2)];
 
 /// Returns marks at the powers of ten, fainter ones at 2 to 9 times each, and finer ones within less than a decade.
-pub(super) fn marks(input: GridInput) -> Vec<GridMark> {
+pub(in crate::gui) fn marks(input: GridInput) -> Vec<GridMark> {
     let (low, high) = input.bounds;
     let span = high - low;
     // Also rejects NaN bounds.
@@ -44,7 +44,7 @@ fn within(power: f64, span: f64, marks: &mut Vec<GridMark>) {
 }
 
 /// Returns the label of a mark: powers of ten, and if the axis shows few of them other values too.
-pub(super) fn label(mark: GridMark, span: f64) -> String {
+pub(in crate::gui) fn label(mark: GridMark, span: f64) -> String {
     let value = 10f64.powf(mark.value);
     let whole = report::tick(value);
     let leading = value / 10f64.powf(mark.value.floor());
@@ -53,7 +53,7 @@ pub(super) fn label(mark: GridMark, span: f64) -> String {
 }
 
 /// Formats a number with three significant digits.
-pub(super) fn short(x: f64) -> String {
+pub(in crate::gui) fn short(x: f64) -> String {
     let size = x.abs();
     match size {
         _ if !x.is_finite() => "diverged".into(),

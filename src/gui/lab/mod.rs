@@ -3,7 +3,7 @@
 //! Owns the selected study, the folder for results, and the run. `lab` measures; a run reports over its channel, and a
 //! click on a point opens that point's project like any other.
 
-mod axis;
+pub(super) mod axis;
 mod colors;
 mod header;
 mod legend;

@@ -135,6 +135,7 @@ impl Shell {
         self.live = Live::default();
         self.project_ui.buffers.forget_texture();
         self.project_ui.compare.forget_textures();
+        self.project_ui.speed.forget_textures();
         self.lab.change_device(gpu.clone());
         self.thumbnails = Thumbnails::new(gpu, wake);
     }

@@ -1,6 +1,6 @@
 //! A Siemens star, a hairline and a moving disc, sampled at any resolution.
 
-use crate::picture::Picture;
+use eddy_metrics::picture::Picture;
 use std::ops::RangeInclusive;
 
 /// The side of the canvas in pixels.

@@ -2,6 +2,7 @@
 
 mod axis;
 mod csv;
+mod frontier;
 mod html;
 mod labels;
 mod plot;
@@ -11,6 +12,7 @@ use super::{LabError, Results, Study, error::make_folder};
 pub use axis::{decades, tick};
 pub(crate) use csv::quoted;
 use eddy_project as project;
+pub use frontier::ErrorPlot;
 pub(crate) use html::escaped;
 use std::{io::Write, path::Path};
 pub use table::{Best, COLOURS, Look, Row, TARGET, Table, sign};

@@ -17,7 +17,7 @@ const WIDTH: u32 = 1240;
 const HEIGHT: u32 = 720;
 /// Width of the legend.
 const LEGEND: u32 = 380;
-const FONT: &str = "sans-serif";
+pub(super) const FONT: &str = "sans-serif";
 
 /// Colours that are distinguishable with colour vision deficiency (Okabe and Ito 2008), and further ones that differ in
 /// brightness.
@@ -35,8 +35,10 @@ const COLOURS: [RGBColor; super::COLOURS] = [
     RGBColor(40, 40, 40),
     RGBColor(150, 110, 200),
 ];
+/// The frontier.
+pub(super) const GOLD: RGBColor = RGBColor(255, 205, 60);
 const GREY: RGBColor = RGBColor(165, 168, 172);
-const INK: RGBColor = RGBColor(40, 44, 52);
+pub(super) const INK: RGBColor = RGBColor(40, 44, 52);
 
 /// Errors above this are drawn on the upper edge, if there are smaller ones.
 const BLOWN_UP: f64 = 9.0;
@@ -71,19 +73,28 @@ pub(super) fn png(table: &Table) -> Result<Option<Vec<u8>>, LabError> {
     Ok(Some(file.into_inner()))
 }
 
-fn trouble<E: std::fmt::Display>(error: E) -> LabError {
+pub(super) fn trouble<E: std::fmt::Display>(error: E) -> LabError {
     LabError::Plot(error.to_string())
 }
 
-fn axis((low, high): (f64, f64)) -> WithKeyPoints<LogCoord<f64>> {
+pub(super) fn axis((low, high): (f64, f64)) -> WithKeyPoints<LogCoord<f64>> {
     let Marks { labelled, others } = marks((low, high));
     (low..high).log_scale().with_key_points(labelled).with_light_points(others)
 }
 
-fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabError> {
-    // The machine's fonts are not used, so that the picture is the same everywhere.
+/// Registers the font. The machine's fonts are not used, so that the picture is the same everywhere.
+pub(super) fn register() -> Result<(), LabError> {
     register_font(FONT, FontStyle::Normal, epaint_default_fonts::UBUNTU_LIGHT)
-        .map_err(|_| LabError::Plot("the font cannot be read".into()))?;
+        .map_err(|_| LabError::Plot("the font cannot be read".into()))
+}
+
+/// Returns the label of a line of an axis.
+pub(super) fn label_of(value: f64) -> String {
+    label(value)
+}
+
+fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabError> {
+    register()?;
     let places = || table.rows.iter().filter_map(Row::place);
     // Diverged results would leave no room for the others.
     let least = places().map(|p| p.1).fold(f64::INFINITY, f64::min);
@@ -133,7 +144,7 @@ fn draw<B: DrawingBackend>(area: &Area<B>, table: &Table) -> Result<bool, LabErr
     for pair in frontier.windows(2) {
         steps.extend([pair[0], (pair[1].0, pair[0].1), pair[1]]);
     }
-    let gold = RGBColor(255, 205, 60).mix(0.65).stroke_width(9);
+    let gold = GOLD.mix(0.65).stroke_width(9);
     chart.draw_series([PathElement::new(steps, gold)]).map_err(trouble)?;
     let (mut signs, mut ends) = (Vec::new(), Vec::new());
     for (n, method) in table.methods().into_iter().enumerate() {
@@ -244,7 +255,7 @@ fn legend<B: DrawingBackend>(
         y += 25;
     }
     if table.study.is_contest {
-        let gold = RGBColor(255, 205, 60).mix(0.65).stroke_width(9);
+        let gold = GOLD.mix(0.65).stroke_width(9);
         area.draw(&PathElement::new(vec![(left, y + 9), (left + 22, y + 9)], gold))?;
         area.draw(&Text::new("the frontier", (left + 32, y), text(15, &INK)))?;
     }

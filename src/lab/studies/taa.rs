@@ -2,13 +2,16 @@
 //! thing, and its flicker.
 
 use crate::{
-    HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit, flip,
+    HardCase, LabError, Measured, Method, Point, Rig, Setup, Study, Unit,
     metrics::{Norms, mean},
-    picture::{Picture, psnr, ssim},
     reference::{
         rays::on_all_cores,
         star::{DISC, SIDE, SLOW, SPEED, Star},
     },
+};
+use eddy_metrics::{
+    flip,
+    picture::{Picture, psnr, ssim},
 };
 use std::sync::LazyLock;
 
@@ -115,7 +118,7 @@ pub fn rest(rig: &Rig, method: &str, setting: f64) -> Result<Still, LabError> {
     running.frames(REST + 1)?;
     let mut frames = Vec::new();
     for _ in 0..ROUND {
-        frames.push(Picture::of(&running.read(result(method))?));
+        frames.push(running.read(result(method))?.picture());
         running.frames(1)?;
     }
     let values: Vec<Vec<f64>> = frames.iter().map(Picture::luma).collect();
@@ -158,7 +161,7 @@ pub fn moving(rig: &Rig, method: &str, setting: f64) -> Result<Moving, LabError>
     let (mut ghost, mut off, mut first) = (vec![(0.0, 0.0); LONGEST as usize], Vec::new(), None);
     for (frame, truth) in (NOW..).zip(PASSING.iter()) {
         running.frames(1)?;
-        let picture = Picture::of(&running.read(result(method))?);
+        let picture = running.read(result(method))?.picture();
         for (ago, (sum, all)) in (1..).zip(&mut ghost) {
             for i in Star::vacated(SPEED, frame - ago, frame - ago + 1..=frame) {
                 for (c, disc) in DISC.iter().enumerate() {
@@ -185,7 +188,7 @@ pub fn slow_ghost(rig: &Rig, method: &str, setting: f64) -> Result<f64, LabError
     let (mut left, mut all) = (0.0, 0.0);
     for (frame, truth) in (NOW..).zip(CREEPING.iter()) {
         running.frames(1)?;
-        let picture = Picture::of(&running.read(result(method))?);
+        let picture = running.read(result(method))?.picture();
         for i in Star::left_ago(SLOW, frame, SLOW_AGO) {
             for (c, disc) in DISC.iter().enumerate() {
                 left += picture.rgb[i][c] - truth.rgb[i][c];

@@ -10,6 +10,7 @@ use super::{
     films::FilmOrder,
     playback::TimeRange,
     probe::{ProbeLook, ProbePlace},
+    tune::TuneOptions,
     view::Level,
 };
 use eddy_control::midi::MidiChoice;
@@ -324,6 +325,9 @@ pub enum ToolCommand {
     /// Draws the frames since the reset again in the background, by this project and by the baseline, from the same
     /// inputs; `None` ends that. See [`Session::comparison`](super::Session::comparison).
     Compare(Option<Baseline>),
+    /// Searches in the background for cheaper settings of the project's quality constants; `None` ends that. See
+    /// [`Session::tuning`](super::Session::tuning).
+    Tune(Option<TuneOptions>),
 }
 
 /// Notices.

@@ -31,6 +31,7 @@ impl Session {
         self.open.host.changed |= self.open.trace.poll();
         self.open.take_audited();
         self.open.host.changed |= self.open.nan_search.background.poll() | self.open.comparison.background.poll();
+        self.open.host.changed |= self.open.tuning.background.poll();
         self.tick_sound();
         self.tick_film();
         self.open.fit_canvas();

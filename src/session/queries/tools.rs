@@ -1,12 +1,14 @@
 //! The results of tracing, comparing, measuring and other tools, for front ends.
 
 use crate::{
-    AuditMap, CameraState, CountsView, Session, TraceView, measures::Measure, pass_history::PassStep, view::TabFix,
+    AuditMap, CameraState, CountsView, Session, TraceView, measures::Measure, pass_history::PassStep,
+    tune::TuneOutcome, view::TabFix,
 };
 use eddy_background::{Count, Status};
 use eddy_debugger::{divergence::DivergenceFound, nonfinite::SearchEnd};
 use eddy_playback::{assertion::Unmeasured, comparing::Comparison};
 use eddy_project::{CustomUniform, CustomUniformValue, InputKind, PassName, Tab};
+use eddy_tune::Progress;
 use eddy_video::{CameraDevice, CameraFrame, CameraSource};
 use std::{borrow::Cow, sync::Arc};
 
@@ -35,6 +37,16 @@ impl Session {
     /// The newest comparison is of an older revision of the project.
     pub fn is_comparison_old(&self) -> bool {
         self.open.is_comparison_old()
+    }
+
+    /// The search for cheaper settings ([`ToolCommand::Tune`](super::ToolCommand::Tune)).
+    pub fn tuning(&self) -> Option<Status<'_, Progress, Arc<TuneOutcome>>> {
+        self.open.tuning()
+    }
+
+    /// The newest search is of an older revision of the project.
+    pub fn is_tuning_old(&self) -> bool {
+        self.open.is_tuning_old()
     }
 
     /// Returns the errors of the audited pixels ([`ToolCommand::Audit`](super::ToolCommand::Audit)) while its findings are

@@ -41,6 +41,8 @@ const LAYERS: &[&str] = &[
     "translate",
     "web",
     "debugger",
+    "metrics",
+    "tune",
     "session",
     "lab",
     "lsp",

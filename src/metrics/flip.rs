@@ -116,40 +116,75 @@ fn features(luma: &[f64], width: usize) -> [Vec<f64>; 2] {
     [strength(edge), strength(point)]
 }
 
+/// The part of the work that needs one picture alone: a reference is prepared once, and compared often.
+#[derive(Clone, Debug)]
+pub struct Prepared {
+    width: usize,
+    /// L*a*b* as the eye resolves it, with the Hunt effect.
+    colours: Vec<[f64; 3]>,
+    edges: Vec<f64>,
+    points: Vec<f64>,
+}
+
+impl Prepared {
+    pub fn new(picture: &Picture) -> Self {
+        let width = picture.width;
+        let all: Vec<[f64; 3]> = picture.rgb.iter().map(|c| opponent(*c)).collect();
+        let channel = |i: usize| all.iter().map(|c| c[i]).collect::<Vec<f64>>();
+        let [y, cx, cz] = [0, 1, 2].map(|i| seen(&channel(i), width, SENSITIVITY[i]));
+        let colours =
+            (0..y.len()).map(|i| hunt_lab(from_opponent([y[i], cx[i], cz[i]]).map(|v| v.clamp(0.0, 1.0)))).collect();
+        let luma: Vec<f64> = all.iter().map(|c| (c[0] + 16.0) / 116.0).collect();
+        let [edges, points] = features(&luma, width);
+        Self { width, colours, edges, points }
+    }
+
+    /// Returns whether both are pictures of one size.
+    pub fn is_of_size(&self, other: &Prepared) -> bool {
+        (self.width, self.colours.len()) == (other.width, other.colours.len())
+    }
+
+    /// Returns the difference at every pixel, 0 to 1.
+    ///
+    /// # Panics
+    /// If the sizes differ.
+    pub fn map(&self, reference: &Prepared) -> Vec<f64> {
+        let (a, b) = (self, reference);
+        assert_eq!((a.width, a.colours.len()), (b.width, b.colours.len()), "pictures of one size are compared");
+        let most = hyab(hunt_lab([0.0, 1.0, 0.0]), hunt_lab([0.0, 0.0, 1.0])).powf(QC);
+        let knee = PC * most;
+        (0..a.colours.len())
+            .map(|i| {
+                let colour = hyab(a.colours[i], b.colours[i]).powf(QC);
+                let colour =
+                    if colour < knee { PT / knee * colour } else { PT + (colour - knee) / (most - knee) * (1.0 - PT) };
+                let feature = (a.edges[i] - b.edges[i]).abs().max((a.points[i] - b.points[i]).abs());
+                let feature = (feature / 2f64.sqrt()).powf(QF);
+                colour.powf(1.0 - feature)
+            })
+            .collect()
+    }
+
+    /// Returns the mean difference, 0 for equal pictures.
+    ///
+    /// # Panics
+    /// If the sizes differ.
+    pub fn mean(&self, reference: &Prepared) -> f64 {
+        super::mean(&self.map(reference))
+    }
+}
+
 /// Returns the difference at every pixel, 0 to 1.
 ///
 /// # Panics
 /// If the sizes differ.
 pub fn map(picture: &Picture, reference: &Picture) -> Vec<f64> {
-    let width = picture.width;
-    assert_eq!((width, picture.rgb.len()), (reference.width, reference.rgb.len()), "pictures of one size are compared");
-    let prepared = |picture: &Picture| {
-        let all: Vec<[f64; 3]> = picture.rgb.iter().map(|c| opponent(*c)).collect();
-        let channel = |i: usize| all.iter().map(|c| c[i]).collect::<Vec<f64>>();
-        let [y, cx, cz] = [0, 1, 2].map(|i| seen(&channel(i), width, SENSITIVITY[i]));
-        let colours: Vec<[f64; 3]> =
-            (0..y.len()).map(|i| hunt_lab(from_opponent([y[i], cx[i], cz[i]]).map(|v| v.clamp(0.0, 1.0)))).collect();
-        let luma: Vec<f64> = all.iter().map(|c| (c[0] + 16.0) / 116.0).collect();
-        (colours, features(&luma, width))
-    };
-    let ((a, [edges_a, points_a]), (b, [edges_b, points_b])) = (prepared(picture), prepared(reference));
-    let most = hyab(hunt_lab([0.0, 1.0, 0.0]), hunt_lab([0.0, 0.0, 1.0])).powf(QC);
-    let knee = PC * most;
-    (0..a.len())
-        .map(|i| {
-            let colour = hyab(a[i], b[i]).powf(QC);
-            let colour =
-                if colour < knee { PT / knee * colour } else { PT + (colour - knee) / (most - knee) * (1.0 - PT) };
-            let feature = (edges_a[i] - edges_b[i]).abs().max((points_a[i] - points_b[i]).abs());
-            let feature = (feature / 2f64.sqrt()).powf(QF);
-            colour.powf(1.0 - feature)
-        })
-        .collect()
+    Prepared::new(picture).map(&Prepared::new(reference))
 }
 
 /// Returns the mean difference, 0 for equal pictures.
 pub fn mean(picture: &Picture, reference: &Picture) -> f64 {
-    super::metrics::mean(&map(picture, reference))
+    super::mean(&map(picture, reference))
 }
 
 #[cfg(test)]

@@ -12,12 +12,6 @@ impl Picture {
         Picture { width, rgb }
     }
 
-    /// Returns the colours of a pass, without its alpha.
-    pub fn of(field: &super::Field) -> Picture {
-        let rgb = field.texels().iter().map(|t| [0, 1, 2].map(|i| f64::from(t[i]))).collect();
-        Picture { width: field.width(), rgb }
-    }
-
     pub fn height(&self) -> usize {
         self.rgb.len() / self.width
     }
@@ -35,7 +29,7 @@ impl Picture {
 
 /// Returns the peak signal-to-noise ratio of all three components in dB, for a peak of 1.
 pub fn psnr(picture: &Picture, reference: &Picture) -> f64 {
-    super::metrics::psnr(&picture.values(), &reference.values())
+    super::psnr(&picture.values(), &reference.values())
 }
 
 /// Filters a field along its rows and columns; the field is extended by its edge.
@@ -83,7 +77,7 @@ pub fn ssim(picture: &Picture, reference: &Picture) -> f64 {
             (2.0 * ma[i] * mb[i] + c1) * (2.0 * cov + c2) / ((ma[i].powi(2) + mb[i].powi(2) + c1) * (va + vb + c2))
         })
         .collect();
-    super::metrics::mean(&all)
+    super::mean(&all)
 }
 
 #[cfg(test)]

@@ -52,12 +52,12 @@ impl PictureDifference {
 
     /// Returns the mean of the FLIP map.
     pub fn mean_flip(&self) -> f64 {
-        super::metrics::mean(&self.flip)
+        super::mean(&self.flip)
     }
 }
 
 /// Returns a picture as displayed: in 8 bits, the top row first.
-fn screen(pixels: &Pixels) -> Picture {
+pub fn screen(pixels: &Pixels) -> Picture {
     let bytes = pixels.to_rgba8();
     let rgb = bytes.chunks_exact(4).map(|p| [0, 1, 2].map(|i| f64::from(p[i]) / 255.0)).collect();
     Picture::new(pixels.width as usize, rgb)
