@@ -161,9 +161,9 @@ const OWN: &[Entry] = &[
     row(Action::Audit, "audit", "Check precision, NaN and undefined behaviour", &["Ctrl+Shift+U"], Group::Picture)
         .found_by("debug validate nan accuracy error"),
     row(Action::CountCost, "count-cost", "Toggle cost by pixel and by line", &["Ctrl+Shift+H"], Group::Picture)
-        .found_by("heat map profile performance slow time speed hot"),
+        .found_by("heat map hotspot slow lines iterations"),
     row(Action::TraceCostliest, "trace-costliest", "Trace the costliest pixel", &[], Group::Picture)
-        .found_by("slow debug profile performance"),
+        .found_by("slow debug hotspot"),
     row(Action::FindNonfinite, "first-nan", "Find first NaN or infinity", &[], Group::Picture).found_by("debug inf"),
     row(Action::Record, "record-input", "Start/stop recording input", &["Ctrl+Shift+R"], Group::Picture)
         .found_by("capture video replay mouse keys recording"),
