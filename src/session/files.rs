@@ -172,6 +172,10 @@ impl Session {
         }
         self.open.settle_includes();
         let mut project = self.project().clone();
+        if !self.open.disk.is_home_there(&self.open.documents) {
+            // A folder of that name has none of its files.
+            project.origin = Origin::Unsaved;
+        }
         if !is_same_place(&project.origin, folder) {
             project.name = project::name_at(folder);
         }

@@ -180,7 +180,7 @@ impl DiskSync {
     }
 
     /// Returns whether the project's file or folder is still where it was read; true if it is not stored in files.
-    fn is_home_there(&self, documents: &Documents) -> bool {
+    pub(crate) fn is_home_there(&self, documents: &Documents) -> bool {
         let saved = documents.saved();
         let files = || saved.tab_sources().filter_map(|source| source.path.as_deref());
         self.home.as_ref().is_none_or(|home| home.is_there(files()))
