@@ -193,8 +193,8 @@ impl Tuner<'_> {
         let mut drawn: Vec<(Vec<f64>, Shots)> = vec![(present.clone(), shots)];
         let mut states = vec![Convergence::Untried; present.len()];
         if !request.against_present {
-            for knob in 0..present.len() {
-                states[knob] = self.converge_knob(knob, &present, &at, &mut drawn)?;
+            for (knob, state) in states.iter_mut().enumerate() {
+                *state = self.converge_knob(knob, &present, &at, &mut drawn)?;
             }
         }
         let mut converged: Vec<f64> =
@@ -301,9 +301,7 @@ impl Tuner<'_> {
             let change = before.map(|(_, before)| {
                 // The means over seeds: noise is not a change.
                 let (a, b) = (self.prepared(before, seeds), self.prepared(&shots, seeds));
-                let worst = a.iter().zip(&b).map(|(a, b)| self.one_error(b, a)).fold(0.0, f64::max);
-                // Noise of the means is not a change either.
-                worst
+                a.iter().zip(&b).map(|(a, b)| self.one_error(b, a)).fold(0.0, f64::max)
             });
             drawn.push((with(to), shots));
             Ok(change)

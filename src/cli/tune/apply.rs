@@ -136,7 +136,7 @@ fn pictures(project: &Project, gpu: &Gpu, request: &Request) -> anyhow::Result<V
     for &at in &scene.at {
         while frame < at {
             if has_state {
-                drop(offline.advance()?)
+                offline.advance()?;
             } else {
                 offline.skip()?
             }

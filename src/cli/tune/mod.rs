@@ -252,14 +252,14 @@ impl StatusLine {
     fn show(&mut self, progress: &Progress) -> bool {
         if self.is_shown {
             let name: String = progress.doing.chars().take(60).collect();
-            let _ = write!(io::stderr(), "\r\x1b[K{:3.0} %  {}", progress.part * 100.0, terminal::one_line(&name));
+            terminal::replace_line(&format!("{:3.0} %  {name}", progress.part * 100.0));
         }
         true
     }
 
     fn clear(&mut self) {
         if self.is_shown {
-            let _ = write!(io::stderr(), "\r\x1b[K");
+            terminal::replace_line("");
         }
     }
 }

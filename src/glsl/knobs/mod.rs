@@ -109,8 +109,7 @@ pub struct Number {
 pub fn numbers(source: &PassSource<'_>) -> Vec<Number> {
     let mut found = on_deep_stack(|| numbers_here(source));
     // A loop that `#if AA > 1` leaves out appears with a larger number.
-    for index in 0..found.len() {
-        let number = &found[index];
+    for number in &mut found {
         let is_hidden = number.declared == Declared::Macro
             && number.ty == NumberType::Int
             && number.roles.iter().any(|role| role.kind == RoleKind::Condition)
@@ -133,7 +132,7 @@ pub fn numbers(source: &PassSource<'_>) -> Vec<Number> {
                         role.at = Span { start: back(role.at.start), end: back(role.at.end), ..role.at };
                     }
                 }
-                found[index].roles.extend(roles);
+                number.roles.extend(roles);
                 break;
             }
         }

@@ -61,7 +61,7 @@ impl Found {
             found.number(project, &texts, number, &mut used);
         }
         found.marked_uniforms(project, &texts);
-        found.knobs.sort_by_key(|knob| rank(knob));
+        found.knobs.sort_by_key(rank);
         found.settings(project);
         found
     }
