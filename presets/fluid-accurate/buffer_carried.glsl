@@ -1,6 +1,5 @@
 // Half of the step's viscosity, along y, and half of the push of the pressure: what advection takes with it.
-// Channel 0 is Buffer spread, which is drawn only with viscosity, channel 1 the velocity of the last frame, which has the
-// pressure, channel 2 the pace.
+// Channel 0 is Buffer spread, channel 1 the velocity of the last frame, which has the pressure, channel 2 the pace.
 #include "heat.glsl"
 #define PRESSURE iChannel1
 #define PACE iChannel2
@@ -8,11 +7,7 @@
 
 void mainImage(out vec4 carried, in vec2 fragCoord) {
     ivec2 p = ivec2(fragCoord);
-    vec2 u = texelFetch(iChannel1, p, 0).xy;
-    if (viscosity > 0.0) {
-        float amount = viscosityHere(0.5 * stepNow(iChannel2), iChannelResolution[0].y);
-        u = spreadAlong(iChannel0, p, ivec2(0, 1), amount);
-    }
-    u -= 0.5 * pressurePush(p);
+    float amount = viscosityHere(0.5 * stepNow(iChannel2), iChannelResolution[0].y);
+    vec2 u = spreadAlong(iChannel0, p, ivec2(0, 1), amount) - 0.5 * pressurePush(p);
     carried = isFinite(vec4(u, 0.0, 0.0)) ? vec4(u, 0.0, 0.0) : vec4(0.0);
 }

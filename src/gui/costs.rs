@@ -20,7 +20,7 @@ pub(super) const PANEL: PanelRow = PanelRow::new(
 .tools(|ui, context| tools(ui, context.session, context.out))
 .heading(|_| "Costs of a frame".to_owned())
 .report(|_, _, session| report(session))
-.action("Costs", &["Ctrl+Shift+M"], "profiler profile performance timing gpu memory");
+.action("Panel: Costs", &["Ctrl+Shift+M"], "profiler profile performance timing gpu memory");
 
 const ROW: f32 = 19.0;
 const SIZE: f32 = 12.0;

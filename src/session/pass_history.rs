@@ -218,7 +218,7 @@ mod tests {
         history.push_uniforms(values(0.0), Some("speed"), at(1810));
         history.push_uniforms(values(0.0), Some("speed"), at(2300));
         assert_eq!(history.undo.len(), 4);
-        let before: Vec<f64> = history.undo.iter().map(|step| before(step)).collect();
+        let before: Vec<f64> = history.undo.iter().map(before).collect();
         assert_eq!(before, [0.0, 950.0, 1350.0, 0.0], "the values before the first movement of each");
     }
 

@@ -330,7 +330,7 @@ fn replacing_in_all_passes_is_undone_in_each() {
     for (tab, old) in [(Tab::image(), USES), (buffer(), USES), (shared(), SHARED)] {
         assert_eq!(text(&stage, &tab), old.replace("float", "highp float"), "{tab:?}");
     }
-    assert!(stage.state().session.notices().last().unwrap().text.starts_with("Replaced 4 in 3 texts"));
+    assert!(stage.state().session.notices().last().unwrap().text.starts_with("Replaced 4 matches in 3 tabs"));
     key(&mut stage, Key::Escape);
     for (tab, old) in [("tab:Image", USES), ("tab:Buffer A", USES)] {
         click(&mut stage, tab);

@@ -320,7 +320,7 @@ impl Controls {
             for (name, index, target) in bound.chain(named) {
                 let Some(uniform) = by_name.get(name).copied() else { continue };
                 let now = uniform.value(&open.project().custom_uniform_values);
-                let value = moved(uniform, &now, index, event, target.is_none());
+                let value = moved(uniform, &now, index, event, target.is_none()).map(CustomUniformValue::shortest);
                 if target.is_some_and(|target| !self.takes_over(target, uniform, &now, value.as_ref(), event)) {
                     continue;
                 }

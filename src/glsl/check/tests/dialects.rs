@@ -180,7 +180,7 @@ fn messages_name_the_host_program() {
     {
         let said = said(dialect);
         // ISF ignores versions.
-        let count = if dialect == ISF { 1 } else { 2 };
+        let count = usize::from(dialect != ISF);
         assert_eq!(said.matches(header).count(), count, "{said}");
         assert_eq!(said.contains("Shadertoy"), dialect == Dialect::Shadertoy, "{said}");
     }
