@@ -190,8 +190,12 @@ fn a_missing_camera_is_reported() {
     let Some(gpu) = support::gpu() else { return };
     let camera = CameraSource::of_text("/dev/video-of-nobody");
     let mut stage = Stage::with_options(gpu, |_| SessionOptions { camera, ..SessionOptions::default() });
+    stage.write("eddy.toml", "[passes.image]\nchannels.0 = { webcam = true }\n");
+    stage.write("image.glsl", plain(0.2));
+    stage.session.apply(FileCommand::Open(stage.folder().to_str().unwrap().to_owned()));
+    stage.until_compiled();
     stage.session.apply(CameraCommand::UseDevice { kind: InputKind::Webcam, on: true });
-    stage.until("the camera to be off", |s| s.device_state(InputKind::Webcam) == CameraState::Off);
-    let warnings = stage.notices(Level::Warning);
-    assert!(warnings.iter().any(|text| text.contains("camera")), "{warnings:?}");
+    let is_camera = |n: &eddy::session::Notice| n.level == Level::Warning && n.text.contains("camera");
+    stage.until("the warning", |s| s.notices().iter().any(is_camera));
+    assert_eq!(stage.session.device_state(InputKind::Webcam), CameraState::Off);
 }
