@@ -182,7 +182,7 @@ fn difference(drawn: &[Texels], expected: &[Texels]) -> Option<String> {
 #[test]
 fn programs_match_the_interpreter() {
     let Some(gpu) = gpu() else { return };
-    let (count, first) = (number("EDDY_RANDOM_PROGRAMS", 300), number("EDDY_RANDOM_SEED", 1));
+    let (count, first) = (number("EDDY_RANDOM_PROGRAMS", 200), number("EDDY_RANDOM_SEED", 1));
     let (next, faults) = (AtomicU64::new(first), Mutex::new(Vec::new()));
     let threads = std::thread::available_parallelism().map_or(1, usize::from).min(8);
     std::thread::scope(|scope| {
