@@ -117,9 +117,9 @@ pub fn write_new(
     Err(CaptureError::NoNameLeft { folder: folder.to_owned(), stem: stem.to_owned() })
 }
 
-/// The folder for pictures of this project; `pictures` if it has none of its own.
+/// The folder for pictures of this project; `pictures` if it has none of its own, or if its folder was deleted.
 pub fn folder_for(project: &Project, pictures: &Path) -> PathBuf {
-    base_folder(project).unwrap_or_else(|| pictures.to_owned())
+    base_folder(project).filter(|folder| folder.is_dir()).unwrap_or_else(|| pictures.to_owned())
 }
 
 /// The folder that contains a project on disk.

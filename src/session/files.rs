@@ -173,6 +173,8 @@ impl Session {
         self.open.settle_includes();
         let mut project = self.project().clone();
         if !self.open.disk.is_home_there(&self.open.documents) {
+            self.open.documents.restore_includes();
+            project = self.project().clone();
             // A folder of that name has none of its files.
             project.origin = Origin::Unsaved;
         }

@@ -4,6 +4,7 @@ use eddy_project::Origin;
 use std::{
     fs,
     path::{Path, PathBuf},
+    time::SystemTime,
 };
 
 /// The number of entries of a folder that are searched for a renamed project.
@@ -18,14 +19,15 @@ pub(super) struct Home {
     identity: Option<Identity>,
 }
 
-/// The numbers that identify a file or folder whatever its name: the device and the inode.
-type Identity = (u64, u64);
+/// Identifies a file or folder whatever its name: the device, the inode, and the time of creation where the file system
+/// records it, because the inode of a deleted file is used for new ones.
+type Identity = (u64, u64, Option<SystemTime>);
 
 #[cfg(unix)]
 fn identity(path: &Path) -> Option<Identity> {
     use std::os::unix::fs::MetadataExt;
     let metadata = fs::metadata(path).ok()?;
-    Some((metadata.dev(), metadata.ino()))
+    Some((metadata.dev(), metadata.ino(), metadata.created().ok()))
 }
 
 /// The standard library does not offer the file index of Windows yet: a renamed project is reported as moved.

@@ -48,6 +48,9 @@ impl OpenProject {
                 self.report_missing_files();
                 return true;
             }
+            if self.documents.restore_includes() {
+                self.compile_soon();
+            }
             let is_told = self.host.notices.list().iter().any(|notice| notice.about == About::Gone);
             if !is_told {
                 let place = home.path().display();

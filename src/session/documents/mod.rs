@@ -22,6 +22,9 @@ pub(super) struct Documents {
     generated: Option<Project>,
     /// Tabs whose files are missing on disk: unsaved, whatever their text.
     missing: BTreeSet<Tab>,
+    /// The included files as they were when all of them could be read: those of a project that is deleted are not all
+    /// deleted at once.
+    complete_includes: Vec<Included>,
     revision: u64,
 }
 
@@ -59,7 +62,9 @@ impl Documents {
     /// A project as it was read or created, with nothing unsaved.
     pub(crate) fn new(project: Project) -> Self {
         let generated = project.dialect.has_main().then(|| project.clone());
-        Self { saved: project.clone(), current: project, generated, missing: BTreeSet::new(), revision: 0 }
+        let complete_includes = readable(&project.includes);
+        let (saved, missing) = (project.clone(), BTreeSet::new());
+        Self { saved, current: project, generated, missing, complete_includes, revision: 0 }
     }
 
     /// A project with unsaved work, and its version on disk.
@@ -77,7 +82,8 @@ impl Documents {
                 (mine.name, mine.path) = (theirs.name.clone(), theirs.path.clone());
             }
         }
-        let mut documents = Self { current, saved, generated: None, missing: BTreeSet::new(), revision: 0 };
+        let (missing, complete_includes) = (BTreeSet::new(), readable(&saved.includes));
+        let mut documents = Self { current, saved, generated: None, missing, complete_includes, revision: 0 };
         documents.note_edited();
         documents
     }
@@ -128,6 +134,11 @@ impl Documents {
     /// text has changed.
     pub(crate) fn take_includes(&mut self, read: Vec<Included>) -> bool {
         self.revision += 1;
+        let is_failed = |i: &Included| read.iter().any(|r| r.source.name == i.source.name && r.trouble.is_some());
+        match self.complete_includes.iter().any(is_failed) {
+            false => self.complete_includes = readable(&read),
+            true => add_missing(&mut self.complete_includes, &readable(&read)),
+        }
         let (before, saved) = (std::mem::take(&mut self.current.includes), std::mem::take(&mut self.saved.includes));
         let of = |list: &[Included], name: &str| list.iter().find(|i| i.source.name == name).cloned();
         let mut is_other = false;
@@ -151,6 +162,19 @@ impl Documents {
             self.saved.includes.extend(of(&saved, &left.source.name));
         }
         is_other
+    }
+
+    /// Puts back the texts of included files that can no longer be read, because the project was deleted. Returns whether
+    /// there were any.
+    pub(crate) fn restore_includes(&mut self) -> bool {
+        let (lost, before) = (self.complete_includes.clone(), readable(&self.current.includes).len());
+        for includes in [&mut self.current.includes, &mut self.saved.includes] {
+            let has_lost = |name: &str| lost.iter().any(|i| i.source.name == name);
+            includes.retain(|i| i.trouble.is_none() || !has_lost(&i.source.name));
+            add_missing(includes, &lost);
+        }
+        self.revision += 1;
+        readable(&self.current.includes).len() != before
     }
 
     /// Records which included files are edited.
@@ -384,6 +408,20 @@ impl Documents {
         // Which files are included is determined again.
         next.includes = std::mem::take(&mut self.current.includes);
         self.current = next;
+    }
+}
+
+/// Returns the included files that could be read.
+fn readable(includes: &[Included]) -> Vec<Included> {
+    includes.iter().filter(|i| i.trouble.is_none()).cloned().collect()
+}
+
+/// Adds the files of `from` whose names `to` does not have.
+fn add_missing(to: &mut Vec<Included>, from: &[Included]) {
+    for included in from {
+        if !to.iter().any(|i| i.source.name == included.source.name) {
+            to.push(included.clone());
+        }
     }
 }
 

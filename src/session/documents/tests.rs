@@ -210,6 +210,35 @@ fn a_diff_names_each_side() {
     assert!(lines.contains(&DiffLine::Disk("b".into())) && lines.contains(&DiffLine::Mine("B".into())));
 }
 
+/// The files of a deleted folder disappear one after the other: one may be missed while the others are there.
+#[test]
+fn included_files_that_were_lost_are_restored() {
+    let included = |name: &str, text: &str| Included {
+        source: Source { name: name.into(), path: None, text: text.into() },
+        trouble: text.is_empty().then(|| "there is no file".to_owned()),
+        is_limit: false,
+        is_edited: false,
+    };
+    let mut project = Project::of_image("p".into(), "".into());
+    project.includes = vec![included("a.glsl", "#include \"b.glsl\""), included("b.glsl", "b")];
+    let mut documents = Documents::new(project.clone());
+    // The first one names the second one, which is not looked for any more.
+    documents.take_includes(vec![included("a.glsl", ""), included("c.glsl", "c")]);
+    documents.take_includes(vec![included("a.glsl", "")]);
+    assert!(documents.restore_includes() && !documents.restore_includes());
+    let texts = |project: &Project| {
+        let mut all: Vec<_> = project.includes.iter().map(|i| i.source.text.to_string()).collect();
+        all.sort();
+        all
+    };
+    assert_eq!(texts(documents.current()), ["#include \"b.glsl\"", "b", "c"]);
+    assert_eq!(texts(documents.saved()), texts(documents.current()));
+    // What is read again and no longer included is forgotten.
+    documents.take_includes(vec![included("a.glsl", "a")]);
+    documents.restore_includes();
+    assert_eq!(texts(documents.current()), ["a"]);
+}
+
 /// A read of files that started before a save completes after it.
 #[test]
 fn stale_read_of_included_files_does_not_undo_a_save() {

@@ -75,7 +75,7 @@ impl Stage {
     }
 
     pub(crate) fn read(&self, name: &str) -> String {
-        fs::read_to_string(self.path(name)).unwrap()
+        fs::read_to_string(self.path(name)).unwrap_or_else(|e| panic!("{name}: {e}; {:?}", self.session.notices()))
     }
 
     pub(crate) fn tick(&mut self) -> Tick {
