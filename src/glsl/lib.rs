@@ -94,6 +94,7 @@ mod compile;
 mod diagnostics;
 mod dialects;
 mod driver;
+mod format;
 mod front_end;
 pub mod knobs;
 mod lex;
@@ -145,6 +146,7 @@ pub mod walkable;
 pub use eddy_diag::{
     Diagnostic, Edit, Fix, Label, LineColumn, Severity, SourceId, SourceMap, SourceText, Span, render, render_all,
 };
+pub use format::{format, format_edits};
 pub use naga;
 
 pub use check::{keyword_in_any_version, taken};

@@ -1,4 +1,4 @@
-//! Opens pages that come with Eddy in the desktop's browser.
+//! Opens pages that come with Eddy in the desktop's browser, and shows files in its file manager.
 //!
 //! A page is written to a private folder first, so that the executable works without its `docs`. The desktop is called
 //! on a separate thread: it may show a dialog, or never return.
@@ -18,10 +18,17 @@ use std::{
 /// The page with the bookmarklet that saves a shader from its Shadertoy page.
 const BOOKMARKLET: &str = include_str!("../../docs/bookmarklet.html");
 const BOOKMARKLET_NAME: &str = "shadertoy-bookmarklet.html";
-/// Pages that are being opened.
+/// Files that are being opened.
 #[derive(Default)]
 pub(super) struct Browser {
-    opening: Vec<(PathBuf, Background<(), (), bool>)>,
+    opening: Vec<(Opened, Background<(), (), bool>)>,
+}
+
+/// What is being opened.
+enum Opened {
+    Page(PathBuf),
+    /// A file in its folder.
+    File(PathBuf),
 }
 
 impl Browser {
@@ -33,20 +40,36 @@ impl Browser {
         let page = path.clone();
         match Background::once("browser", "opening the page", wake.clone(), move |_: &Control<()>| Ok(show(&page))) {
             Ok(opening) => {
-                self.opening.push((path, opening.detached()));
+                self.opening.push((Opened::Page(path), opening.detached()));
                 Ok(())
             }
             Err(e) => Err(format!("cannot start a thread for the browser: {e}; open {} in a browser", path.display())),
         }
     }
 
+    /// Asks the desktop to show a file in its folder.
+    pub(super) fn show_in_folder(&mut self, path: PathBuf, wake: &Arc<dyn Fn() + Send + Sync>) -> Result<(), String> {
+        let file = path.clone();
+        let call = move |_: &Control<()>| Ok(reveal(&file));
+        let opening = Background::once("file manager", "opening the folder", wake.clone(), call)
+            .map_err(|e| format!("Cannot start a thread for the file manager: {e}. The file is {}", path.display()))?;
+        self.opening.push((Opened::File(path), opening.detached()));
+        Ok(())
+    }
+
     /// Returns notices about pages for which the desktop has returned.
     pub(super) fn take(&mut self) -> Vec<Command> {
         let mut notices = Vec::new();
-        self.opening.retain_mut(|(path, opening)| match opening.take() {
+        self.opening.retain_mut(|(what, opening)| match opening.take() {
             None => true,
             Some(answer) => {
-                notices.push(opened(path.clone(), answer == Ok(true)));
+                let is_open = answer == Ok(true);
+                match what {
+                    Opened::Page(path) => notices.push(opened(path.clone(), is_open)),
+                    // The file manager is in front.
+                    Opened::File(_) if is_open => {}
+                    Opened::File(path) => notices.push(not_shown(path.clone())),
+                }
                 false
             }
         });
@@ -64,6 +87,11 @@ fn opened(path: PathBuf, is_open: bool) -> Command {
     Command::Notice(NoticeCommand::Notify { level, text, path: Some(path) })
 }
 
+fn not_shown(path: PathBuf) -> Command {
+    let text = format!("No file manager could be opened. The file is {}", path.display());
+    Command::Notice(NoticeCommand::Notify { level: Level::Warning, text, path: Some(path) })
+}
+
 fn write(folder: &Path) -> io::Result<PathBuf> {
     make_private(folder)?;
     write_into(folder, BOOKMARKLET_NAME, |file| file.write_all(BOOKMARKLET.as_bytes()))?;
@@ -79,6 +107,34 @@ fn show(page: &Path) -> bool {
     return process::Command::new("explorer").arg(page).spawn().is_ok();
     #[cfg(not(any(windows, target_os = "macos")))]
     (portal(page) || runs(Path::new("xdg-open"), page))
+}
+
+/// Shows a file in its folder. Returns false if the desktop could not.
+fn reveal(file: &Path) -> bool {
+    #[cfg(target_os = "macos")]
+    return process::Command::new("open").arg("-R").arg(file).status().is_ok_and(|status| status.success());
+    #[cfg(windows)]
+    {
+        // Its exit status is meaningless.
+        let mut select = std::ffi::OsString::from("/select,");
+        select.push(file);
+        return process::Command::new("explorer").arg(select).spawn().is_ok();
+    }
+    #[cfg(not(any(windows, target_os = "macos")))]
+    {
+        let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        portal_folder(file) || runs(Path::new("xdg-open"), folder)
+    }
+}
+
+/// Calls the XDG desktop portal, which opens the folder of a file and selects it.
+#[cfg(not(any(windows, target_os = "macos")))]
+fn portal_folder(file: &Path) -> bool {
+    use ashpd::desktop::open_uri::OpenDirectoryRequest;
+    use std::os::fd::AsFd;
+    let Ok(open) = std::fs::File::open(file) else { return false };
+    let asked = pollster::block_on(async { OpenDirectoryRequest::default().send(&open.as_fd()).await?.response() });
+    asked.inspect_err(|e| log::info!("the desktop portal did not show {}: {e}", file.display())).is_ok()
 }
 
 /// Calls the XDG desktop portal, which reaches browsers that are sandboxed.

@@ -13,7 +13,7 @@ use crate::{
     background::{Background, Control},
     project::{RECORDING, SOUNDS, expand_home},
 };
-use egui::{Align2, Area, Button, Frame, Id, Key, Modal, Order, RichText, TextEdit, Ui, Vec2, vec2};
+use egui::{Align, Align2, Area, Button, Frame, Id, Key, Layout, Modal, Order, RichText, TextEdit, Ui, Vec2, vec2};
 use std::{
     path::{MAIN_SEPARATOR, PathBuf},
     sync::Arc,
@@ -165,7 +165,8 @@ impl Files {
             }
             done |= field.lost_focus() && ui.input(|i| i.key_pressed(Key::Enter));
             ui.add_space(8.0);
-            ui.horizontal(|ui| {
+            let row = vec2(ui.available_width(), BUTTON.y);
+            ui.allocate_ui_with_layout(row, Layout::right_to_left(Align::Center), |ui| {
                 // The accent colour marks the button that Enter presses, as in every dialog.
                 let p = theme::of(ui);
                 let ok = Button::new(RichText::new(action).color(p.strong)).fill(p.accent_fill).min_size(BUTTON);

@@ -41,6 +41,7 @@ mod histogram;
 mod hosts;
 mod icons;
 mod includes;
+mod inline_code;
 mod input_steps;
 mod keys;
 mod lab;

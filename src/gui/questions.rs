@@ -8,8 +8,13 @@ use crate::{
     project::{Origin, Tab},
     session::{self, Answer, Command, DiffLine, FileCommand, PendingAction, Question, Recovered, Session},
 };
-use egui::{Color32, FontId, Frame, Id, Modal, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2};
+use egui::{
+    Align, Color32, FontId, Frame, Id, Layout, Modal, Rect, RichText, ScrollArea, Sense, Ui, UiBuilder, pos2, vec2,
+};
 use std::path::{Path, PathBuf};
+
+/// The height of a button.
+const BUTTON: f32 = 28.0;
 
 /// Shows the first pending question.
 pub(super) fn show(ui: &Ui, session: &Session, out: &mut UiOutput) {
@@ -35,8 +40,8 @@ pub(super) fn show(ui: &Ui, session: &Session, out: &mut UiOutput) {
     });
 }
 
-/// Shows a row of buttons: the first is highlighted and pressed by Enter, the last is the safe way out and pressed by
-/// Escape.
+/// Shows a row of buttons from the right: the first is highlighted and pressed by Enter, the last is the safe way out and
+/// pressed by Escape.
 fn answers(ui: &mut Ui, list: &[(&str, Answer)], out: &mut UiOutput) {
     answers_with_default(ui, list, 0, out);
 }
@@ -45,8 +50,9 @@ fn answers(ui: &mut Ui, list: &[(&str, Answer)], out: &mut UiOutput) {
 /// that was meant for something else.
 fn answers_with_default(ui: &mut Ui, list: &[(&str, Answer)], default_index: usize, out: &mut UiOutput) {
     let takes_keys = takes_keys(ui);
-    ui.add_space(12.0);
-    ui.horizontal_wrapped(|ui| {
+    ui.add_space(14.0);
+    let row = vec2(ui.available_width(), BUTTON);
+    ui.allocate_ui_with_layout(row, Layout::right_to_left(Align::Center).with_main_wrap(true), |ui| {
         for (i, (label, answer)) in list.iter().enumerate() {
             let text = RichText::new(*label);
             let button = if i == default_index {
@@ -54,7 +60,7 @@ fn answers_with_default(ui: &mut Ui, list: &[(&str, Answer)], default_index: usi
             } else {
                 egui::Button::new(text)
             };
-            let response = ui.add(button.min_size(vec2(84.0, 28.0)));
+            let response = ui.add(button.min_size(vec2(84.0, BUTTON)));
             // Enter presses the default button, unless another one has the focus.
             if i == default_index && takes_keys && ui.memory(|m| m.focused().is_none()) {
                 response.request_focus();
@@ -121,7 +127,7 @@ fn unsaved(ui: &mut Ui, session: &Session, then: &PendingAction, tabs: &[Tab], o
         list.extend(tabs.iter().map(Tab::title));
     }
     let list = list.join(", ");
-    ui.label(format!("Unsaved changes: {list}. They are lost {what} unless you save them."));
+    ui.label(format!("Unsaved: {list}. Unless you save, this is lost {what}."));
     let answers_ = [("Save", Answer::Save), ("Discard", Answer::Discard), ("Cancel", Answer::Cancel)];
     answers(ui, &answers_, out);
 }

@@ -100,23 +100,32 @@ fn list(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOutput) {
         }
     }
     ui.separator();
+    // Two dense blocks, so that all of it is in sight in a window of 800x500.
     ui.colored_label(theme::of(ui).weak, "Scale");
-    for scale in SCALES {
-        let on = transport.fixed_size.is_none() && (transport.scale - scale.factor()).abs() < 1e-3;
-        if out.clicked(&format!("scale:{}", scale.name()), &ui.selectable_label(on, scale.name())) {
-            chosen = Some(PictureAction::Scale(scale));
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 2.0;
+        for scale in SCALES {
+            let on = transport.fixed_size.is_none() && (transport.scale - scale.factor()).abs() < 1e-3;
+            if out.clicked(&format!("scale:{}", scale.name()), &ui.selectable_label(on, scale.name())) {
+                chosen = Some(PictureAction::Scale(scale));
+            }
         }
-    }
+    });
     ui.separator();
     ui.colored_label(theme::of(ui).weak, "Fixed size");
     let own = transport.fixed_size.filter(|size| !SIZES.contains(size));
-    for size in own.into_iter().chain(SIZES) {
-        let name = format!("{} × {}", size.0, size.1);
-        let on = transport.fixed_size == Some(size);
-        if out.clicked(&format!("size:{}x{}", size.0, size.1), &ui.selectable_label(on, name)) {
-            chosen = Some(PictureAction::Size(size));
+    egui::Grid::new("fixed sizes").num_columns(2).spacing([2.0, 2.0]).show(ui, |ui| {
+        for (n, size) in SIZES.into_iter().chain(own).enumerate() {
+            let name = format!("{} × {}", size.0, size.1);
+            let on = transport.fixed_size == Some(size);
+            if out.clicked(&format!("size:{}x{}", size.0, size.1), &ui.selectable_label(on, name)) {
+                chosen = Some(PictureAction::Size(size));
+            }
+            if n % 2 == 1 {
+                ui.end_row();
+            }
         }
-    }
+    });
     if let Some(action) = chosen {
         out.act(Action::Picture(action));
         Popup::close_all(ui.ctx());

@@ -4,8 +4,9 @@
 use super::{
     actions::Action,
     icons::{self, Icon},
+    inline_code::Inline,
     theme,
-    ui_output::UiOutput,
+    ui_output::{ShellCommand, UiOutput},
 };
 use crate::session::{About, EditCommand, Level, Notice, NoticeCommand, Session};
 use egui::{
@@ -70,13 +71,12 @@ pub(super) fn expire(ctx: &Context, session: &Session, now: Instant, out: &mut U
 }
 
 /// Shows the notices at the bottom of `ui`, which shrinks accordingly: the newest on top, and the oldest below, where
-/// one scrolls to them.
-pub(super) fn panel(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
+/// one scrolls to them. `limit`: their maximum height; one line is always shown.
+pub(super) fn panel(ui: &mut Ui, session: &Session, limit: f32, out: &mut UiOutput) {
     let groups = groups(session.notices());
     if groups.is_empty() {
         return;
     }
-    let most = (ui.available_height() * 0.4).max(40.0);
     let frame = Frame::NONE.fill(theme::of(ui).raised);
     // Uses the height of the contents in the last frame: a scroll area does not report the height that it would like.
     let id = Id::unique("height of notices");
@@ -84,7 +84,7 @@ pub(super) fn panel(ui: &mut Ui, session: &Session, out: &mut UiOutput) {
     let more = groups.len().min(SHOWN) as f32 - count.min(SHOWN) as f32;
     let height = (height + more * ROW).max(ROW);
     let panel = Panel::bottom(PLACE).frame(frame).show_separator_line(false).resizable(false);
-    let shown = panel.exact_size(height.min(most)).show(ui, |ui| {
+    let shown = panel.exact_size(height.min(limit.max(ROW))).show(ui, |ui| {
         out.stop(PLACE, ui);
         ui.painter().hline(ui.max_rect().x_range(), ui.max_rect().top() + 0.5, Stroke::new(1.0, theme::of(ui).line));
         ui.spacing_mut().item_spacing.y = 0.0;
@@ -145,9 +145,12 @@ fn is_excerpt(line: &str) -> bool {
 fn laid_out(ui: &Ui, text: &str, size: f32) -> LayoutJob {
     let color = ui.visuals().text_color();
     let mut job = LayoutJob::default();
+    let inline = Inline { size, color, palette: theme::of(ui) };
     for line in text.split_inclusive('\n') {
-        let font = if is_excerpt(line) { FontId::monospace(size - 1.0) } else { FontId::proportional(size) };
-        job.append(line, 0.0, TextFormat::simple(font, color));
+        match is_excerpt(line) {
+            true => job.append(line, 0.0, TextFormat::simple(FontId::monospace(size - 1.0), color)),
+            false => inline.append(&mut job, line),
+        }
     }
     job
 }
@@ -165,7 +168,7 @@ const MARK: f32 = 25.0;
 const PADDING: f32 = 4.0;
 /// The height of a row's buttons, and of a row with one line.
 const BUTTON: f32 = 20.0;
-const ROW: f32 = BUTTON + 2.0 * PADDING;
+pub(super) const ROW: f32 = BUTTON + 2.0 * PADDING;
 
 /// Shows a notice, as high as its text and its buttons need.
 fn row(ui: &mut Ui, session: &Session, group: &Group<'_>, out: &mut UiOutput) {
@@ -195,6 +198,9 @@ fn row(ui: &mut Ui, session: &Session, group: &Group<'_>, out: &mut UiOutput) {
                 out.on_click(&format!("toast:{}:save-as", notice.id), &save, Action::SaveAs);
             }
             if let Some(path) = &notice.path {
+                let show = ui.button("Show in folder").on_hover_text(path.display().to_string());
+                let request = ShellCommand::ShowInFolder(path.clone());
+                out.on_click(&format!("toast:{}:show", notice.id), &show, request);
                 let copy = ui.button("Copy path").on_hover_text(path.display().to_string());
                 if out.clicked(&format!("toast:{}:copy", notice.id), &copy) {
                     ui.ctx().copy_text(path.display().to_string());

@@ -43,8 +43,13 @@ pub(super) fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOut
             out.on_click(name, &response, action);
         };
         button(ui, "button:reset", Icon::Reset, "Reset time and buffers", Action::Reset);
-        // In a narrow bar they are hidden in favour of recording marks and device lights: they also have keys.
-        if ui.available_width() >= RIGHT_WIDTH + 3.0 * (icons::WIDTH + 4.0) + least_of_lights(session) {
+        // The resolution stays as long as the lights keep their dots. A recording fixes it.
+        let played = session.replay();
+        let roomy = played.is_none() && ui.available_width() >= RIGHT_WIDTH + SIZE + least_of_lights(session);
+        let right = if roomy { RIGHT_WIDTH + SIZE } else { RIGHT_WIDTH };
+        // In a narrow bar they are hidden in favour of the resolution, recording marks and device lights: they also have
+        // keys.
+        if ui.available_width() >= right + 3.0 * (icons::WIDTH + 4.0) + least_of_lights(session) {
             button(ui, "button:step-back", Icon::StepBack, "Step one frame back", Action::StepBack);
             button(ui, "button:step", Icon::Step, "Step one frame forward", Action::Step);
             button(
@@ -59,19 +64,16 @@ pub(super) fn show(ui: &mut Ui, session: &Session, shape: Shape, out: &mut UiOut
         film(ui, session, out);
         // Later widgets keep room for themselves: for the lights, at least their dots.
         let sound = sound_bar::least(session);
-        devices::light(ui, session, ui.available_width() - RIGHT_WIDTH - devices::network_least(session) - sound, out);
-        devices::network_light(ui, session, ui.available_width() - RIGHT_WIDTH - sound, out);
-        sound_bar::show(ui, session, ui.available_width() - RIGHT_WIDTH, out);
+        devices::light(ui, session, ui.available_width() - right - devices::network_least(session) - sound, out);
+        devices::network_light(ui, session, ui.available_width() - right - sound, out);
+        sound_bar::show(ui, session, ui.available_width() - right, out);
         // What does not fit is in the menu at the right, or in the table of costs.
-        let played = session.replay();
-        // A recording fixes the resolution.
-        let roomy = played.is_none() && ui.available_width() >= RIGHT_WIDTH + SIZE + 64.0;
         let gap = 8.0;
         ui.spacing_mut().item_spacing.x = gap;
         if let Some(played) = &played {
             replay::show(ui, played, transport.playing, RIGHT_WIDTH + gap, out);
         }
-        let mut room = ui.available_width() - if roomy { RIGHT_WIDTH + SIZE } else { RIGHT_WIDTH };
+        let mut room = ui.available_width() - right;
         let mut fits = |width: f32| {
             let fits = played.is_none() && room >= width + gap;
             room -= if fits { width + gap } else { 0.0 };

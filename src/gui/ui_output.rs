@@ -62,6 +62,8 @@ pub(super) enum ShellCommand {
     /// Stop receiving OSC, whether the settings or the command line started it.
     StopOsc,
     ClosePanel(Panel),
+    /// Show a file in the desktop's file manager.
+    ShowInFolder(PathBuf),
     /// Make the edits of a quick fix.
     Fix(TabFix),
     /// Paste the clipboard into the code.
@@ -75,6 +77,7 @@ pub(super) enum ShellCommand {
 }
 
 /// A request of a widget.
+#[derive(Clone, Debug)]
 pub(super) enum Request {
     Session(Command),
     Shell(ShellCommand),
@@ -181,12 +184,17 @@ impl UiOutput {
     /// Records the place of a button, and makes a request if it was clicked. Returns whether it was.
     pub(super) fn on_click(&mut self, name: &str, response: &Response, request: impl Into<Request>) -> bool {
         let is_clicked = self.clicked(name, response);
-        match request.into() {
-            Request::Session(command) if is_clicked => self.commands.push(command),
-            Request::Shell(command) if is_clicked => self.shell_commands.push(command),
-            _ => {}
+        if is_clicked {
+            self.request(request.into());
         }
         is_clicked
+    }
+
+    pub(super) fn request(&mut self, request: Request) {
+        match request {
+            Request::Session(command) => self.commands.push(command),
+            Request::Shell(command) => self.shell_commands.push(command),
+        }
     }
 
     /// The same for an entry of a menu, which is then closed.

@@ -14,6 +14,8 @@ const ROW: f32 = 21.0;
 
 pub(super) struct Uses {
     name: String,
+    /// What the places are: "reference" or "match".
+    of: &'static str,
     places: Vec<Use>,
     selected: Option<usize>,
 }
@@ -37,23 +39,28 @@ pub(super) struct UsesResponse {
 
 impl Uses {
     /// Returns `None` if there is nothing to list.
-    pub(super) fn new(session: &Session, places: Vec<(Tab, Range<usize>)>) -> Option<Self> {
+    pub(super) fn new<'t>(text: impl Fn(&Tab) -> Option<&'t str>, places: Vec<(Tab, Range<usize>)>) -> Option<Self> {
         let mut list: Vec<Use> = Vec::new();
         for (tab, range) in places {
             // Lines are counted from the previous place: counting from the top each time takes minutes for many uses
             // in a long text.
             let before = list.last().filter(|p| p.tab == tab && p.range.start <= range.start);
             let known = before.map_or((0, 1), |p| (p.range.start, p.line));
-            list.extend(place(session.text(&tab), tab.clone(), range, known));
+            list.extend(text(&tab).and_then(|text| place(text, tab.clone(), range, known)));
         }
         let places = list;
         let first = places.first()?;
-        Some(Self { name: first.text[first.name.clone()].to_owned(), places, selected: None })
+        let name = first.text[first.name.clone()].to_owned();
+        Some(Self { name, of: "reference", places, selected: None })
     }
 
     /// Returns the list of search results; `None` if nothing was found.
-    pub(super) fn found(session: &Session, query: &str, places: Vec<(Tab, Range<usize>)>) -> Option<Self> {
-        Some(Self { name: query.to_owned(), ..Self::new(session, places)? })
+    pub(super) fn found<'t>(
+        text: impl Fn(&Tab) -> Option<&'t str>,
+        query: &str,
+        places: Vec<(Tab, Range<usize>)>,
+    ) -> Option<Self> {
+        Some(Self { name: query.to_owned(), of: "match", ..Self::new(text, places)? })
     }
 
     /// `limit`: the maximum height of the list.
@@ -65,12 +72,8 @@ impl Uses {
         ui.add_space(3.0);
         ui.horizontal(|ui| {
             ui.add_space(12.0);
-            let count = self.places.len();
             ui.monospace(&self.name);
-            ui.colored_label(
-                theme::of(ui).weak,
-                if count == 1 { "1 reference".into() } else { format!("{count} references") },
-            );
+            ui.colored_label(theme::of(ui).weak, self.count());
             ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
                 let close = icons::button(ui, Icon::Close, "Close the list").on_hover_text("Close (Esc)");
                 shown.closed = out.clicked("button:close-uses", &close);
@@ -94,6 +97,18 @@ impl Uses {
         );
         ui.add_space(4.0);
         shown
+    }
+
+    /// Returns the number of places in words: "5 matches in 2 tabs".
+    fn count(&self) -> String {
+        let plural = |n: usize, noun: &str| match (n, noun) {
+            (1, _) => format!("1 {noun}"),
+            (_, "match") => format!("{n} matches"),
+            _ => format!("{n} {noun}s"),
+        };
+        let mut tabs: Vec<&Tab> = self.places.iter().map(|place| &place.tab).collect();
+        tabs.dedup();
+        format!("{} in {}", plural(self.places.len(), self.of), plural(tabs.len(), "tab"))
     }
 
     fn row(&self, ui: &mut Ui, index: usize, several: bool, out: &mut UiOutput) -> bool {

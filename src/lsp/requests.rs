@@ -171,6 +171,12 @@ pub(crate) fn request(
             let lines = asked.lines();
             answer(tokens::folds(asked.program, asked.id, &lines))
         }),
+        "textDocument/formatting" => about_document(params, workspace, &|mut asked| {
+            let lines = asked.lines();
+            let edits = eddy_glsl::format_edits(lines.text()).into_iter();
+            let edit = |(range, new_text)| lsp::TextEdit { range: lines.range(range), new_text };
+            answer(edits.map(edit).collect::<Vec<_>>())
+        }),
         "textDocument/semanticTokens/full" => about_document(params, workspace, &|mut asked| {
             let lines = asked.lines();
             answer(tokens::tokens(asked.program, asked.id, &lines, 0..u32::MAX))
@@ -204,8 +210,8 @@ pub(crate) fn request(
             }
             answer(found)
         }),
-        "textDocument/formatting" | "textDocument/rangeFormatting" | "textDocument/onTypeFormatting" => {
-            Err(failed("Eddy does not format shaders: their layout is their author's"))
+        "textDocument/rangeFormatting" | "textDocument/onTypeFormatting" => {
+            Err(failed("Eddy formats whole documents only"))
         }
         _ => return None,
     })

@@ -149,7 +149,8 @@ fn a_session_about_whole_texts() {
         if name == "common.glsl" {
             session.open(name, COMMON);
         }
-        for method in ["documentSymbol", "foldingRange", "semanticTokens/full", "inlayHint", "codeAction"] {
+        for method in ["documentSymbol", "foldingRange", "semanticTokens/full", "inlayHint", "codeAction", "formatting"]
+        {
             session.request_for_document(&format!("textDocument/{method}"), name);
         }
     }

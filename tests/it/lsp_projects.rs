@@ -291,7 +291,7 @@ fn invalid_messages_are_rejected_and_the_server_continues() {
         ("textDocument/hover", json!([1, 2]), "invalid"),
         ("textDocument/rename", json!(null), "invalid"),
         ("initialize", json!({}), "before"),
-        ("textDocument/formatting", json!({}), "does not format"),
+        ("textDocument/rangeFormatting", json!({}), "whole documents"),
     ] {
         let error = editor.request(method, params).unwrap_err();
         assert!(error.contains(why), "{method}: {error}");

@@ -69,7 +69,7 @@ fn enter_accepts_a_completion_and_a_call_shows_its_signature() {
     display.shot("completion.png");
     window.keys(&["Return"]);
     window.wait_hidden("completions");
-    window.type_text("(");
+    // The caret is between the parentheses.
     window.wait_shown("signature");
     display.shot("signature.png");
     // The author's declarations come first, also those of Common, and members follow from the type.
@@ -77,7 +77,7 @@ fn enter_accepts_a_completion_and_a_call_shows_its_signature() {
     window.wait_shown("completion:brightness");
     window.keys(&["Tab"]);
     window.wait_hidden("completions");
-    window.type_text("(fragCoord.");
+    window.type_text("fragCoord.");
     window.wait_shown("completion:xy");
     display.shot("members.png");
     window.type_text("x");

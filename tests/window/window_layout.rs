@@ -86,6 +86,13 @@ fn follow_shows_the_picture_without_the_editor_for_one_run() {
     let image = fs::read_to_string(folder.join("image.glsl")).unwrap();
     fs::write(folder.join("image.glsl"), image.replace("* tint, 1.0", "* tint * 0.5, 1.0")).unwrap();
     window.wait_compiled();
+    // Its errors are listed here.
+    fs::write(folder.join("image.glsl"), "void mainImage(out vec4 o, in vec2 p) {\n    o = vec4(missing);\n}\n")
+        .unwrap();
+    window.wait_shown("problem:0");
+    display.shot("follow-errors.png");
+    fs::write(folder.join("image.glsl"), &image).unwrap();
+    window.wait_hidden("problem:0");
     window.keys(&["ctrl+q"]);
     assert_eq!(window.wait_exit(), Some(0));
     let mut window = Window::open(&display, home.path(), &[path]);

@@ -79,10 +79,17 @@ pub(crate) enum Action {
     FindPrevious,
     FindCase,
     FindRegex,
+    FindWord,
+    /// Toggles finding only in the text that is selected.
+    FindInSelection,
     ReplaceAll,
     /// Toggles finding in every text of the project instead of the one in front.
     FindEverywhere,
     GoToLine,
+    /// Lists the declarations of the project's texts.
+    GoToSymbol,
+    /// Applies the fixes of all problems that have exactly one.
+    FixAll,
     NextProblem,
     PreviousProblem,
     FontLarger,

@@ -131,7 +131,7 @@ const OWN: &[Entry] = &[
     row(Action::Quit, "quit", "Quit", &["Ctrl+Q"], Group::Project).found_by("exit close"),
     row(Action::TogglePlay, "play", "Play or pause", &["Alt+Up", "F5"], Group::Picture).found_by("start stop resume"),
     row(Action::Reset, "reset", "Reset time and buffers", &["Alt+Down", "Ctrl+Shift+F5"], Group::Picture)
-        .found_by("restart rewind"),
+        .found_by("restart rewind clear"),
     row(Action::StepBack, "step-back", "Step one frame back", &["Alt+,"], Group::Picture).found_by("previous frame"),
     row(Action::Step, "step", "Step one frame forward", &["Alt+."], Group::Picture).found_by("next frame advance"),
     time(TimeAction::GoTo, "go-to-time", "Go to time", &["Alt+G"]).found_by("seek jump"),
@@ -149,7 +149,7 @@ const OWN: &[Entry] = &[
     row(Action::CompileOnSave, "compile-on-save", "Toggle compile on save only", &[], Group::Picture)
         .found_by("automatic live debounce"),
     row(Action::Compile, "compile", "Compile now", &["Alt+Enter", "Ctrl+Enter"], Group::Picture)
-        .found_by("build run recompile"),
+        .found_by("build run recompile reload refresh"),
     row(
         Action::Screenshot,
         "save-picture",
@@ -183,7 +183,7 @@ const OWN: &[Entry] = &[
     )
     .found_by("export npy numpy exr raw"),
     row(Action::Fullscreen, "full-screen", "Toggle full screen", &["F11"], Group::Picture)
-        .found_by("fullscreen maximize f11"),
+        .found_by("fullscreen maximize f11 projector"),
     row(Action::Present, "present", "Toggle code over picture", &["F9"], Group::Picture)
         .found_by("presentation mode overlay zen focus"),
     row(Action::Probe, "probe", "Toggle probe of the expression at the caret", &["Ctrl+Shift+I"], Group::Picture)
@@ -237,7 +237,7 @@ const OWN: &[Entry] = &[
         &["Ctrl+Shift+B"],
         Group::Window,
     )
-    .found_by("buffers channels settings"),
+    .found_by("buffers channels settings textures inputs layers"),
     row(Action::UndoPasses, "undo-passes", "Undo change of passes, channels or uniforms", &["Ctrl+Z"], Group::Window)
         .found_by("revert"),
     row(
@@ -268,7 +268,7 @@ const OWN: &[Entry] = &[
     row(Action::ZoomOut, "zoom-out", "Zoom out", &["Ctrl+Alt+-"], Group::Window).found_by("ui scale smaller"),
     row(Action::ZoomReset, "zoom-usual", "Reset zoom", &["Ctrl+Alt+0"], Group::Window),
     row(Action::Settings, "open-settings", "Open settings", &["Ctrl+,"], Group::Window)
-        .found_by("preferences options configuration config theme font"),
+        .found_by("preferences options configuration config theme font midi osc controllers gamepad"),
     row(Action::SettingsFile, "settings", "Open settings file", &[], Group::Window)
         .found_by("preferences options configuration config"),
     row(
@@ -282,18 +282,23 @@ const OWN: &[Entry] = &[
     row(Action::FontSmaller, "code-smaller", "Decrease code size", &["Ctrl+-", "Alt+-"], Group::Window)
         .found_by("font text zoom"),
     row(Action::FontReset, "code-usual-size", "Reset code size", &["Ctrl+0"], Group::Window),
-    row(Action::WordWrap, "word-wrap", "Toggle word wrap", &["Alt+Z"], Group::Window).found_by("line soft"),
+    row(Action::WordWrap, "word-wrap", "Toggle word wrap", &["Alt+Z"], Group::Window).found_by("line soft softwrap"),
     row(Action::Find, "find", "Find", &["Ctrl+F"], Group::Search).found_by("search"),
     row(Action::Replace, "replace", "Find and replace", &["Ctrl+H"], Group::Search).found_by("substitute search"),
     row(Action::FindEverywhere, "find-in-passes", "Find in all passes", &["Ctrl+Shift+F"], Group::Search)
-        .found_by("search project files"),
+        .found_by("search project files grep"),
     row(Action::FindNext, "find-next", "Find next", &["F3"], Group::Search),
     row(Action::FindPrevious, "find-previous", "Find previous", &["Shift+F3"], Group::Search),
     row(Action::GoToLine, "go-to-line", "Go to line", &["Ctrl+G"], Group::Search),
-    row(Action::NextProblem, "next-problem", "Go to next problem", &["F8"], Group::Search),
+    row(Action::GoToSymbol, "go-to-symbol", "Go to symbol in outline", &["Ctrl+R"], Group::Search)
+        .found_by("outline functions structure declaration"),
+    row(Action::NextProblem, "next-problem", "Go to next problem", &["F8"], Group::Search)
+        .found_by("errors warnings diagnostics"),
     row(Action::PreviousProblem, "previous-problem", "Go to previous problem", &["Shift+F8"], Group::Search),
     row(Action::FindCase, "find-case", "Toggle match case", &["Alt+C"], Group::FindBar),
     row(Action::FindRegex, "find-regex", "Toggle regular expression", &["Alt+R"], Group::FindBar),
+    row(Action::FindWord, "find-word", "Toggle match whole word", &["Alt+W"], Group::FindBar),
+    row(Action::FindInSelection, "find-in-selection", "Toggle find in selection", &["Alt+L"], Group::FindBar),
     row(Action::ReplaceAll, "replace-all", "Replace all matches", &["Ctrl+Alt+Enter"], Group::FindBar),
     trace(TraceAction::Continue(Forward), "continue", "Continue to the next breakpoint", &["F5"])
         .found_by("debug run resume"),
@@ -314,15 +319,21 @@ const OWN: &[Entry] = &[
     code(Code::Uses, "list-uses", "Find all references", &["Shift+F12"]).found_by("usages occurrences"),
     code(Code::Rename, "rename", "Rename symbol", &["F2"]).found_by("refactor name"),
     code(Code::QuickFix, "quick-fix", "Fix the problem at the caret", &["Ctrl+."]).found_by("repair correct lightbulb"),
-    code(Code::Propose, "propose", "Show suggestions", &["Ctrl+Space"]),
-    code(Code::Signature, "signature", "Show parameter hints", &["Ctrl+Shift+Space"]),
+    row(Action::FixAll, "fix-all", "Fix all problems that have one fix", &[], Group::Code)
+        .found_by("quick repair correct"),
+    code(Code::Format, "format", "Format document", &["Shift+Alt+F"]).found_by("clang indent beautify pretty tidy"),
+    code(Code::Propose, "propose", "Show suggestions", &["Ctrl+Space"])
+        .found_by("autocomplete completion intellisense snippet complete"),
+    code(Code::Signature, "signature", "Show parameter hints", &["Ctrl+Shift+Space"]).found_by("arguments"),
     code(Code::ToggleComment, "toggle-comment", "Toggle line comment", &["Ctrl+/"]).found_by("uncomment"),
-    code(Code::ToggleBlockComment, "toggle-block-comment", "Toggle block comment", &["Shift+Alt+A"]),
+    code(Code::ToggleBlockComment, "toggle-block-comment", "Toggle block comment", &["Shift+Alt+A"])
+        .found_by("uncomment"),
     code(Code::MoveLines(Vertical::Up), "move-lines-up", "Move lines up", &["Alt+Up"]),
     code(Code::MoveLines(Vertical::Down), "move-lines-down", "Move lines down", &["Alt+Down"]),
     code(Code::CopyLines(Vertical::Up), "copy-lines-up", "Copy lines up", &["Shift+Alt+Up"]),
-    code(Code::CopyLines(Vertical::Down), "copy-lines-down", "Copy lines down", &["Shift+Alt+Down"]),
-    code(Code::DeleteLines, "delete-lines", "Delete lines", &["Ctrl+Shift+K"]),
+    code(Code::CopyLines(Vertical::Down), "copy-lines-down", "Copy lines down", &["Shift+Alt+Down"])
+        .found_by("duplicate clone"),
+    code(Code::DeleteLines, "delete-lines", "Delete lines", &["Ctrl+Shift+K"]).found_by("remove cut"),
     code(Code::Indent, "indent", "Indent or insert tab", &["Tab"]),
     code(Code::IndentLines, "indent-lines", "Indent lines", &["Ctrl+]"]),
     code(Code::Unindent, "unindent", "Outdent lines", &["Shift+Tab", "Ctrl+["]),
@@ -352,7 +363,8 @@ const OWN: &[Entry] = &[
     code(Code::Unfold, "unfold", "Unfold block", &["Ctrl+Shift+]"]).found_by("expand"),
     code(Code::FoldAll, "fold-all", "Fold all blocks", &[]),
     code(Code::UnfoldAll, "unfold-all", "Unfold all blocks", &[]),
-    caret(Code::AddNext, "add-next", "Select word, then add next occurrence", &["Ctrl+D"]),
+    caret(Code::AddNext, "add-next", "Select word, then add next occurrence", &["Ctrl+D"])
+        .found_by("multiple cursors multicursor"),
     caret(Code::AddAll, "add-all", "Select all occurrences", &["Ctrl+Shift+L", "Ctrl+F2"]),
     caret(Code::AddCaret(Vertical::Up), "add-caret-up", "Add caret above", &["Ctrl+Alt+Up"]),
     caret(Code::AddCaret(Vertical::Down), "add-caret-down", "Add caret below", &["Ctrl+Alt+Down"]),

@@ -4,7 +4,7 @@ use super::CodePanel;
 use crate::{
     gui::{editor::Query, ui_output::UiOutput, uses::Uses},
     project::Tab,
-    session::{Level, Session},
+    session::Level,
 };
 use std::ops::Range;
 
@@ -17,7 +17,7 @@ impl CodePanel {
     }
 
     /// Searches again if the query or a text has changed, and lists the matches.
-    pub(super) fn look_everywhere(&mut self, session: &Session) {
+    pub(super) fn look_everywhere(&mut self) {
         if !self.find.is_open() || !self.find.is_everywhere() {
             if std::mem::take(&mut self.everywhere.is_listed) {
                 self.uses = None;
@@ -38,7 +38,9 @@ impl CodePanel {
             let (Some(finder), Some(editor)) = (&finder, self.editors.get(tab)) else { continue };
             places.extend(finder.matches(editor.buffer().text()).into_iter().map(|m| (tab.clone(), m)));
         }
-        self.uses = Uses::found(session, &now.0.text, places.clone());
+        // The session gets an edited text only after this frame.
+        let text = |tab: &Tab| self.editors.get(tab).map(|editor| editor.buffer().text());
+        self.uses = Uses::found(text, &now.0.text, places.clone());
         self.everywhere = ProjectMatches { of: Some(now), places, is_listed: true };
     }
 
@@ -64,22 +66,25 @@ impl CodePanel {
         self.bring(tab);
     }
 
-    /// Replaces every match in every text: in each it is one step of undo.
+    /// Replaces every match in every text, as one step of undo.
     pub(super) fn replace_everywhere(&mut self, out: &mut UiOutput) {
         let Ok(finder) = self.find.query().finder() else { return };
-        let (mut count, mut texts) = (0, 0);
+        let (mut count, mut changed) = (0, Vec::new());
         for tab in &self.order {
             let Some(editor) = self.editors.get_mut(tab) else { continue };
             let matches = finder.matches(editor.buffer().text());
             if !matches.is_empty() {
-                (count, texts) = (count + matches.len(), texts + 1);
+                count += matches.len();
+                changed.push(tab.clone());
                 editor.edit(|buffer| buffer.replace_all(&finder, &matches, self.find.with()));
             }
         }
+        self.join_steps(&changed);
         self.report_changed(out);
         if count > 0 {
-            let text = format!("Replaced {count} matches in {texts} tabs. Undo works per tab");
-            out.notify(Level::Info, text);
+            let matches = if count == 1 { "match" } else { "matches" };
+            let tabs = if changed.len() == 1 { "tab" } else { "tabs" };
+            out.notify(Level::Info, format!("Replaced {count} {matches} in {} {tabs}", changed.len()));
         }
     }
 }

@@ -21,9 +21,11 @@ pub(super) struct FindBar {
     with: String,
     /// Searches every text of the project.
     everywhere: bool,
+    /// Searches only a part of a text.
+    scope: Option<Scope>,
     takes_focus: bool,
     /// The tab, revision and query to which `found` belongs.
-    made_for: Option<(Tab, u64, Query)>,
+    made_for: Option<(Tab, u64, Query, Option<Range<usize>>)>,
     found: Found,
 }
 
@@ -36,6 +38,14 @@ pub(super) enum FindBarAction {
     Step(bool),
     Replace,
     ReplaceAll,
+}
+
+/// The lines that were selected when the search was limited to them.
+struct Scope {
+    tab: Tab,
+    range: Range<usize>,
+    /// The revision and the length of the text to which the range belongs.
+    of: (u64, usize),
 }
 
 /// The result of a query.
@@ -60,6 +70,33 @@ impl FindBar {
 
     pub(super) fn close(&mut self) {
         self.is_open = false;
+        self.scope = None;
+    }
+
+    /// Limits the search to the selection, or removes the limit.
+    pub(super) fn toggle_scope(&mut self, tab: &Tab, editor: &CodeEditor) {
+        let buffer = editor.buffer();
+        let range = buffer.selection().range();
+        let scope = || Scope { tab: tab.clone(), range, of: (buffer.revision(), buffer.text().len()) };
+        self.scope = match self.scope.take() {
+            None if !buffer.selection().is_empty() => Some(scope()),
+            _ => None,
+        };
+    }
+
+    /// Returns the limits of the search in a text, which move with what is edited inside or before them.
+    fn scope(&mut self, tab: &Tab, editor: &CodeEditor) -> Option<Range<usize>> {
+        let scope = self.scope.as_mut().filter(|scope| scope.tab == *tab)?;
+        let buffer = editor.buffer();
+        let now = (buffer.revision(), buffer.text().len());
+        if scope.of.0 != now.0 {
+            let by = now.1 as isize - scope.of.1 as isize;
+            let is_before = buffer.selection().range().end < scope.range.start.saturating_add_signed(by.min(0));
+            let start = if is_before { scope.range.start.saturating_add_signed(by) } else { scope.range.start };
+            let end = scope.range.end.saturating_add_signed(by).clamp(start, now.1);
+            (scope.range, scope.of) = (start..end, now);
+        }
+        Some(scope.range.clone())
     }
 
     pub(super) fn is_open(&self) -> bool {
@@ -99,12 +136,16 @@ impl FindBar {
 
     /// Searches again if the text or the query has changed.
     fn refresh(&mut self, tab: &Tab, editor: &CodeEditor) {
-        let now = (tab.clone(), editor.buffer().revision(), self.query.clone());
+        let scope = self.scope(tab, editor);
+        let now = (tab.clone(), editor.buffer().revision(), self.query.clone(), scope.clone());
         if self.made_for.as_ref() == Some(&now) {
             return;
         }
         let finder = self.query.finder();
-        let matches = finder.as_ref().map(|f| f.matches(editor.buffer().text())).unwrap_or_default();
+        let mut matches = finder.as_ref().map(|f| f.matches(editor.buffer().text())).unwrap_or_default();
+        if let Some(scope) = scope {
+            matches.retain(|found| scope.start <= found.start && found.end <= scope.end);
+        }
         self.found = Found { finder: Some(finder), matches };
         self.made_for = Some(now);
     }
@@ -164,11 +205,17 @@ impl FindBar {
                 let response = ui.toggle_value(on, label).on_hover_text(out.keys.tip(tip, action));
                 out.place(name, response.rect);
             };
-            let (case, regex) = (&mut self.query.match_case, &mut self.query.is_regex);
+            let Query { match_case: case, is_regex: regex, whole_word: word, .. } = &mut self.query;
             let (all, tip) = (&mut self.everywhere, "Find in every text of the project");
             switch(ui, all, "find:everywhere", "All passes", tip, Action::FindEverywhere);
             switch(ui, case, "find:case", "Aa", "Match case", Action::FindCase);
+            switch(ui, word, "find:word", "\u{201c}ab\u{201d}", "Match whole word", Action::FindWord);
             switch(ui, regex, "find:regex", ".*", "Use regular expression; $1 in the replacement", Action::FindRegex);
+            let (mut is_limited, before) = (self.scope.is_some(), self.scope.is_some());
+            switch(ui, &mut is_limited, "find:selection", "In selection", "Find in selection", Action::FindInSelection);
+            if is_limited != before {
+                self.toggle_scope(tab, editor);
+            }
             self.refresh(tab, editor);
             let at = self.found.matches.iter().position(|m| *m == editor.buffer().selection().range());
             let count = if self.everywhere { everywhere } else { self.found.matches.len() };

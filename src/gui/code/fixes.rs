@@ -1,7 +1,7 @@
 //! The list of quick fixes at the caret.
 
 use crate::{
-    gui::{accessible, theme, ui_output::UiOutput},
+    gui::{accessible, inline_code::Inline, theme, ui_output::UiOutput},
     project::Tab,
     session::{Session, TabFix},
 };
@@ -75,12 +75,10 @@ impl Fixes {
                 if self.list.is_empty() {
                     ui.colored_label(theme::of(ui).weak, "No quick fix for this line");
                 }
-                let font = egui::FontId::proportional(13.0);
-                let titles: Vec<_> = self
-                    .list
-                    .iter()
-                    .map(|fix| ui.painter().layout_no_wrap(fix.title.clone(), font.clone(), theme::of(ui).text))
-                    .collect();
+                let palette = theme::of(ui);
+                let inline = Inline { size: 13.0, color: palette.text, palette };
+                let titles: Vec<_> =
+                    self.list.iter().map(|fix| ui.painter().layout_job(inline.job(&fix.title))).collect();
                 let width = titles.iter().map(|t| t.size().x).fold(160.0, f32::max) + 16.0;
                 for (i, (fix, title)) in self.list.iter().zip(titles).enumerate() {
                     let (rect, response) = ui.allocate_exact_size(vec2(width, ROW), Sense::click());

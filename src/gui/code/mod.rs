@@ -30,7 +30,10 @@ use everywhere::ProjectMatches;
 use find_bar::FindBar;
 use fixes::{Fixes, FixesAction};
 use rename_bar::RenameBar;
-use std::{collections::HashMap, ops::Range};
+use std::{
+    collections::{BTreeMap, HashMap},
+    ops::Range,
+};
 
 pub(super) const PANEL: PanelRow = PanelRow {
     action: ("code-panel", "Panel: Code", &[], ""),
@@ -71,6 +74,8 @@ pub(super) struct CodePanel {
     /// The problem that was jumped to last.
     problem: Option<usize>,
     uses: Option<Uses>,
+    /// The steps of undo that belong together, in the texts that an edit has changed.
+    joined_steps: Vec<BTreeMap<Tab, u64>>,
     /// The front tab that was last reported to the session.
     reported_front: Option<Tab>,
     /// The number of the session's pass renames that have been applied.
@@ -220,6 +225,12 @@ impl CodePanel {
         }
     }
 
+    pub(super) fn toggle_find_in_selection(&mut self) {
+        if let Some(editor) = self.editors.get(&self.current) {
+            self.find.toggle_scope(&self.current, editor);
+        }
+    }
+
     pub(super) fn switch_find(&mut self, switch: impl Fn(&mut Query)) {
         self.find.switch(switch);
     }
@@ -240,6 +251,7 @@ impl CodePanel {
             editor.act(action);
             editor.focus();
         }
+        self.follow_undo();
         self.report_changed(out);
     }
 
@@ -266,7 +278,9 @@ impl CodePanel {
                 self.files.clear();
                 self.problem = None;
                 self.uses = None;
-                (self.rename, self.fixes) = (None, None);
+                self.joined_steps.clear();
+                (self.rename, self.fixes, self.go_to_line) = (None, None, None);
+                self.find.close();
                 self.bring(project.main_tab());
             }
             self.project = (project.name.clone(), project.origin.clone());
@@ -337,20 +351,18 @@ impl CodePanel {
                 self.go_to_bar(ui, out);
             });
         }
-        self.look_everywhere(session);
+        self.look_everywhere();
         if let Some(fixes) = &mut self.fixes
             && Self::has_focus(ui, &self.current)
         {
             let chosen = fixes.take_keys(ui);
             self.choose_fix(chosen, out);
         }
-        let room = ui.available_height();
-        Panel::bottom("problems")
-            .frame(Frame::NONE.fill(theme::of(ui).panel))
-            .show_separator_line(false)
-            .resizable(false)
-            .show(ui, |ui| problems::show(ui, session, self.caret_line(), (room * 0.35).min(150.0), out));
-        toasts::panel(ui, session, out);
+        // Problems and notices leave two thirds to the code.
+        let limit = ui.available_height() / 3.0;
+        let room = limit - problems::STATE - if session.notices().is_empty() { 0.0 } else { toasts::ROW };
+        let problems = problems::panel(ui, session, self.caret_line(), room.min(150.0), out);
+        toasts::panel(ui, session, limit - problems, out);
         self.show_uses(ui, session, out);
         if self.reported_front.as_ref() != Some(&self.current) {
             self.reported_front = Some(self.current.clone());
@@ -394,6 +406,7 @@ impl CodePanel {
         for (line, rect) in shown.marked {
             out.place(format!("mark:{}", line + 1), rect);
         }
+        self.follow_undo();
         self.report_changed(out);
         if let Some(line) = shown.clicked_line {
             out.shell_commands.push(ShellCommand::Breakpoint(self.current.clone(), line));

@@ -34,7 +34,7 @@ impl CodePanel {
                 }
             }
             (EditorRequest::ListUses(at), Some((analysis, source))) => {
-                self.uses = Uses::new(session, session.uses(analysis, source, at));
+                self.uses = Uses::new(|tab| Some(session.text(tab)), session.uses(analysis, source, at));
             }
             (EditorRequest::Fix(at), _) => {
                 let line = self.buffer().map_or(0, |buffer| buffer.line_of(at));

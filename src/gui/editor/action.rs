@@ -28,6 +28,8 @@ pub(crate) enum EditorAction {
     OtherBracket,
     Undo,
     Redo,
+    /// Indents all lines, and sets the blanks between tokens.
+    Format,
     Fold,
     Unfold,
     FoldAll,

@@ -51,6 +51,8 @@ pub(crate) struct Buffer {
     touched: Vec<usize>,
     /// Closing brackets that were inserted automatically with their opening ones, and can be typed over.
     pub(super) closers: Vec<usize>,
+    /// The steps that were undone (`false`) and redone (`true`), for edits of several texts.
+    reverted: Vec<(u64, bool)>,
     /// The selections were made from a caret, so that further occurrences must be whole words.
     pub(super) selects_words: bool,
 }
@@ -66,6 +68,7 @@ impl Buffer {
             unchanged: Some(Unchanged { head: 0, tail: 0 }),
             touched: Vec::new(),
             closers: Vec::new(),
+            reverted: Vec::new(),
             selects_words: false,
         }
     }
@@ -267,10 +270,26 @@ impl Buffer {
         self.set_carets(self.carets.clone());
     }
 
+    /// Returns the number of the step that undo reverts next; different for each step of a text.
+    pub(crate) fn done_step(&self) -> Option<u64> {
+        self.history.done()
+    }
+
+    /// Returns the number of the step that redo makes next.
+    pub(crate) fn undone_step(&self) -> Option<u64> {
+        self.history.undone()
+    }
+
+    /// Returns the steps that were undone (`false`) and redone (`true`) since the last call.
+    pub(crate) fn take_reverted(&mut self) -> Vec<(u64, bool)> {
+        std::mem::take(&mut self.reverted)
+    }
+
     /// Undoes the last step. Returns false if there is none.
     pub(crate) fn undo(&mut self) -> bool {
         let Some(step) = self.history.undo() else { return false };
-        for edit in step.into_iter().rev() {
+        self.reverted.push((step.id, false));
+        for edit in step.edits.into_iter().rev() {
             self.apply(&edit.inverse());
             self.carets = edit.before;
         }
@@ -282,7 +301,8 @@ impl Buffer {
     /// Redoes what was last undone. Returns false if there is nothing to redo.
     pub(crate) fn redo(&mut self) -> bool {
         let Some(step) = self.history.redo() else { return false };
-        for edit in step {
+        self.reverted.push((step.id, true));
+        for edit in step.edits {
             self.apply(&edit.changes);
             self.carets = edit.after;
         }

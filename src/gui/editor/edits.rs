@@ -1,5 +1,7 @@
 //! Edits made by the editor's keys: typing, new lines, deleting, pasting. Each is made at every caret.
 
+use crate::glsl;
+
 use super::{
     buffer::{Buffer, Replacement},
     history::Kind,
@@ -89,6 +91,16 @@ impl Buffer {
             }
             Replacement::new(line.end..line.end, format!("{end}{indent}"))
         });
+    }
+
+    /// Shift+Alt+F: formats the whole text. Carets keep their places. Returns false if nothing was to be done.
+    pub(crate) fn format(&mut self) -> bool {
+        let parts = glsl::format_edits(self.text());
+        let is_other = !parts.is_empty();
+        if is_other {
+            self.replace_parts(parts);
+        }
+        is_other
     }
 
     /// Backspace and Delete: deletes the selections, or what `motion` passes over.

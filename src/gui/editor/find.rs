@@ -15,6 +15,8 @@ pub(crate) struct Query {
     pub match_case: bool,
     /// The text is a regular expression.
     pub is_regex: bool,
+    /// A match neither begins nor ends inside a word.
+    pub whole_word: bool,
 }
 
 /// A compiled query.
@@ -24,6 +26,7 @@ pub(crate) struct Finder {
     regex: Option<Regex>,
     /// `$1` in a replacement is the match of the first group.
     expands: bool,
+    whole_word: bool,
 }
 
 impl Query {
@@ -41,7 +44,7 @@ impl Query {
                     .map_err(|error| reason(&error))?,
             ),
         };
-        Ok(Finder { regex, expands: self.is_regex })
+        Ok(Finder { regex, expands: self.is_regex, whole_word: self.whole_word })
     }
 }
 
@@ -55,7 +58,8 @@ fn reason(error: &regex::Error) -> String {
 impl Finder {
     /// Returns every match, from the top.
     pub(crate) fn matches(&self, text: &str) -> Vec<Range<usize>> {
-        self.regex.iter().flat_map(|regex| regex.find_iter(text)).map(|m| m.range()).collect()
+        let matches = self.regex.iter().flat_map(|regex| regex.find_iter(text)).map(|m| m.range());
+        matches.filter(|range| !self.whole_word || is_whole_word(text, range)).collect()
     }
 
     /// Returns the replacement for a match.
@@ -70,6 +74,15 @@ impl Finder {
             None => with.to_owned(),
         }
     }
+}
+
+/// Returns whether a match neither begins nor ends inside a word.
+fn is_whole_word(text: &str, range: &Range<usize>) -> bool {
+    let is_word = |c: Option<char>| c.is_some_and(|c| c.is_alphanumeric() || c == '_');
+    let found = &text[range.clone()];
+    let is_inside_left = is_word(text[..range.start].chars().next_back()) && is_word(found.chars().next());
+    let is_inside_right = is_word(found.chars().next_back()) && is_word(text[range.end..].chars().next());
+    !is_inside_left && !is_inside_right
 }
 
 /// Expands `\n` and `\t` in a replacement, which mean the same as in an expression.
@@ -135,7 +148,19 @@ mod tests {
     use super::*;
 
     fn finder(text: &str, match_case: bool, is_regex: bool) -> Finder {
-        Query { text: text.into(), match_case, is_regex }.finder().unwrap()
+        Query { text: text.into(), match_case, is_regex, ..Query::default() }.finder().unwrap()
+    }
+
+    #[test]
+    fn whole_words_are_found() {
+        let find = |text: &str, is_regex: bool, within: &str| {
+            let query = Query { text: text.into(), is_regex, whole_word: true, ..Query::default() };
+            query.finder().unwrap().matches(within)
+        };
+        assert_eq!(find("uv", false, "uv uv2 _uv uv.x muv"), [0..2, 11..13]);
+        assert_eq!(find("+a", false, "x+a +ab"), [1..3], "a side that is no letter may be next to a word");
+        assert_eq!(find("u.", true, "uv uvw"), [0..2]);
+        assert_eq!(find("größe", false, "größe größer"), [0..7]);
     }
 
     #[test]

@@ -60,12 +60,22 @@ pub(crate) enum Kind {
     Other,
 }
 
+/// The edits that are undone together.
+#[derive(Clone, Debug)]
+pub(super) struct Step {
+    /// Different for each step of a text.
+    pub id: u64,
+    pub edits: Vec<Edit>,
+}
+
 #[derive(Clone, Debug, Default)]
 pub(super) struct History {
-    done: VecDeque<Vec<Edit>>,
+    done: VecDeque<Step>,
     /// The bytes of done steps; undone steps were counted when they were done.
     size: usize,
-    undone: Vec<Vec<Edit>>,
+    undone: Vec<Step>,
+    /// The number of steps so far.
+    steps: u64,
     /// The kind of the newest step while more edits may join it.
     open: Option<Kind>,
 }
@@ -75,11 +85,16 @@ impl History {
         self.undone.clear();
         self.size += edit.size();
         match self.done.back_mut() {
-            Some(step) if self.open == Some(kind) && can_merge(step.last(), &edit, kind) => step.push(edit),
-            _ => self.done.push_back(vec![edit]),
+            Some(step) if self.open == Some(kind) && can_merge(step.edits.last(), &edit, kind) => {
+                step.edits.push(edit);
+            }
+            _ => {
+                self.steps += 1;
+                self.done.push_back(Step { id: self.steps, edits: vec![edit] });
+            }
         }
         while self.size > MAX_BYTES && self.done.len() > 1 {
-            self.size -= self.done.pop_front().map_or(0, |step| size(&step));
+            self.size -= self.done.pop_front().map_or(0, |step| size(&step.edits));
         }
         self.open = (kind != Kind::Other).then_some(kind);
     }
@@ -91,25 +106,35 @@ impl History {
 
     /// Records that the carets passed over typed text that was already there.
     pub(super) fn go_on(&mut self, carets: &Carets) {
-        if let Some(edit) = self.done.back_mut().and_then(|step| step.last_mut())
+        if let Some(edit) = self.done.back_mut().and_then(|step| step.edits.last_mut())
             && self.open == Some(Kind::Typing)
         {
             edit.after.clone_from(carets);
         }
     }
 
-    pub(super) fn undo(&mut self) -> Option<Vec<Edit>> {
+    /// Returns the step that undo reverts next.
+    pub(super) fn done(&self) -> Option<u64> {
+        self.done.back().map(|step| step.id)
+    }
+
+    /// Returns the step that redo makes next.
+    pub(super) fn undone(&self) -> Option<u64> {
+        self.undone.last().map(|step| step.id)
+    }
+
+    pub(super) fn undo(&mut self) -> Option<Step> {
         self.open = None;
         let step = self.done.pop_back()?;
-        self.size -= size(&step);
+        self.size -= size(&step.edits);
         self.undone.push(step.clone());
         Some(step)
     }
 
-    pub(super) fn redo(&mut self) -> Option<Vec<Edit>> {
+    pub(super) fn redo(&mut self) -> Option<Step> {
         self.open = None;
         let step = self.undone.pop()?;
-        self.size += size(&step);
+        self.size += size(&step.edits);
         self.done.push_back(step.clone());
         Some(step)
     }
@@ -159,7 +184,7 @@ mod tests {
         }
         assert!(history.size <= MAX_BYTES && history.done.len() == 7, "{} in {}", history.size, history.done.len());
         history.push(pasted("y"), Kind::Other);
-        assert_eq!(history.undo().unwrap()[0].changes[0].inserted, "y");
+        assert_eq!(history.undo().unwrap().edits[0].changes[0].inserted, "y");
         let steps = std::iter::from_fn(|| history.undo()).count();
         assert_eq!((steps, history.size), (7, 0));
         assert_eq!(std::iter::from_fn(|| history.redo()).count(), 8);

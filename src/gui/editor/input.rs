@@ -87,6 +87,7 @@ pub(super) fn act(buffer: &mut Buffer, action: Action) -> bool {
         Action::AddAll => buffer.add_all(),
         Action::AddCaret(way) => buffer.add_caret(way),
         Action::OneCaret => buffer.one_caret(),
+        Action::Format => return buffer.format(),
         Action::Undo => return buffer.undo(),
         Action::Redo => return buffer.redo(),
         Action::OtherBracket

@@ -7,11 +7,11 @@ use super::{
     look::{Look, Mark},
     selection::Selection,
 };
-use crate::gui::theme;
-use egui::{
-    Align2, Color32, FontId, Pos2, Rect, Shape, Stroke, StrokeKind, Ui, emath::GuiRounding as _, pos2, text::LayoutJob,
-    vec2,
+use crate::gui::{
+    inline_code::{self, Inline},
+    theme,
 };
+use egui::{Align2, Color32, FontId, Pos2, Rect, Shape, Stroke, StrokeKind, Ui, emath::GuiRounding as _, pos2, vec2};
 use std::ops::Range;
 
 /// The caret's state for painting.
@@ -223,12 +223,11 @@ fn underline(ui: &Ui, lines: &Lines<'_>, buffer: &Buffer, row: usize, mark: &Mar
 /// Paints the message right of the code, as much of it as fits.
 fn beside(ui: &Ui, lines: &Lines<'_>, at: Pos2, mark: &Mark, count: usize, room: f32) {
     let more = if count > 1 { format!("  (+{})", count - 1) } else { String::new() };
-    let text = format!("{}{more}", mark.message.replace('\n', " "));
+    let text = format!("{}{more}", mark.message);
     let size = (lines.font.size - 0.5).max(9.0);
-    let mut job =
-        LayoutJob::simple_singleline(text, FontId::proportional(size), theme::of(ui).of_severity(mark.severity));
-    job.wrap = egui::text::TextWrapping::truncate_at_width(room);
-    let galley = ui.painter().layout_job(job);
+    let palette = theme::of(ui);
+    let inline = Inline { size, color: palette.of_severity(mark.severity), palette };
+    let galley = ui.painter().layout_job(inline.line(&text, room));
     let y = at.y + (lines.row_height - galley.size().y) / 2.0;
     ui.painter().galley(pos2(at.x, y), galley, theme::of(ui).text);
 }
@@ -246,9 +245,9 @@ pub(super) fn popup(ui: &Ui, within: Rect, popup: &Popup) {
             egui::Frame::popup(ui.style()).show(ui, |ui| {
                 ui.set_max_width(width);
                 for mark in &popup.marks {
-                    ui.colored_label(theme::of(ui).of_severity(mark.severity), &mark.message);
+                    inline_code::label(ui, theme::of(ui).of_severity(mark.severity), &mark.message);
                     for hint in &mark.hints {
-                        ui.colored_label(theme::of(ui).weak, hint);
+                        inline_code::label(ui, theme::of(ui).weak, hint);
                     }
                 }
             });

@@ -5,6 +5,7 @@ use super::{
     history::Kind,
     selection::Selection,
 };
+use std::ops::Range;
 
 const PAIRS: [(&str, &str); 3] = [("(", ")"), ("[", "]"), ("{", "}")];
 
@@ -47,6 +48,17 @@ impl Buffer {
         let closers: Vec<usize> =
             closers.flat_map(|(s, (_, close))| s.head..s.head + close.map_or(0, str::len)).collect();
         self.closers.extend(closers);
+    }
+
+    /// Replaces a range with a call of a function. The caret is between the parentheses if it has parameters, where the
+    /// closing one is typed over, and otherwise after them.
+    pub(crate) fn replace_by_call(&mut self, range: Range<usize>, name: &str, has_parameters: bool) {
+        let inside = range.start + name.len() + 1;
+        self.replace(range, &format!("{name}()"), Kind::Other);
+        if has_parameters {
+            self.select(inside, inside);
+            self.closers.push(inside);
+        }
     }
 
     /// Returns whether every caret is before an automatically inserted closing letter that equals `text`.

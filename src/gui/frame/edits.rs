@@ -156,11 +156,15 @@ fn renaming_covers_all_texts_and_only_the_same_symbol() {
     assert_eq!(text(&stage, &shared()), SHARED.replace("glow", "shine"));
     settle(&mut stage);
     assert!(stage.state().session.diagnostics().is_empty(), "{:?}", stage.state().session.diagnostics());
-    // Each text is reverted by its own undo.
+    // One undo reverts all texts, and one redo renames in all.
+    let renamed_tabs = |stage: &Stage| {
+        [Tab::image(), buffer(), shared()].iter().filter(|tab| text(stage, tab).contains("shine")).count()
+    };
     press(&mut stage, CTRL, Key::Z);
-    let now: Vec<bool> =
-        [Tab::image(), buffer(), shared()].iter().map(|tab| text(&stage, tab).contains("shine")).collect();
-    assert_eq!(now.iter().filter(|has| **has).count(), 2, "{now:?}");
+    assert_eq!(renamed_tabs(&stage), 0);
+    press(&mut stage, CTRL, Key::Y);
+    assert_eq!(renamed_tabs(&stage), 3);
+    press(&mut stage, CTRL, Key::Z);
     // Built-in names cannot be renamed.
     write(&mut stage, "void mainImage(out vec4 o, in vec2 p) { o = vec4(1.0); }");
     press(&mut stage, CTRL, Key::Home);
@@ -303,7 +307,7 @@ fn sliders_appear_before_the_first_compile() {
 }
 
 #[test]
-fn replacing_in_all_passes_is_undone_in_each() {
+fn replacing_in_all_passes_is_one_step_of_undo() {
     let Some(mut stage) = with_shared() else { return };
     focus_code(&mut stage);
     press(&mut stage, CTRL_SHIFT, Key::F);
@@ -314,7 +318,7 @@ fn replacing_in_all_passes_is_undone_in_each() {
     stage.run_steps(2);
     // In the line that includes, the call and the comment of two passes, and in the included file.
     assert!(texts(&stage).iter().any(|text| text == "7"), "{:?}", texts(&stage));
-    assert!(texts(&stage).iter().any(|text| text == "7 references"));
+    assert!(texts(&stage).iter().any(|text| text == "7 matches in 3 tabs"));
     // Enter continues in the next text, and the field keeps the keyboard focus.
     let mut seen = std::collections::BTreeSet::new();
     for _ in 0..7 {
@@ -332,12 +336,19 @@ fn replacing_in_all_passes_is_undone_in_each() {
     }
     assert!(stage.state().session.notices().last().unwrap().text.starts_with("Replaced 4 matches in 3 tabs"));
     key(&mut stage, Key::Escape);
-    for (tab, old) in [("tab:Image", USES), ("tab:Buffer A", USES)] {
-        click(&mut stage, tab);
-        press(&mut stage, CTRL, Key::Z);
-        let current = stage.state().shell.caret().0;
-        assert_eq!(text(&stage, &current), old);
+    click(&mut stage, "tab:Image");
+    press(&mut stage, CTRL, Key::Z);
+    for (tab, old) in [(Tab::image(), USES), (buffer(), USES), (shared(), SHARED)] {
+        assert_eq!(text(&stage, &tab), old, "{tab:?}");
     }
+    // A text that was edited since is not reverted with the others.
+    press(&mut stage, CTRL, Key::Y);
+    click(&mut stage, "tab:Buffer A");
+    focus_code(&mut stage);
+    type_text(&mut stage, " ");
+    click(&mut stage, "tab:Image");
+    press(&mut stage, CTRL, Key::Z);
+    assert!(text(&stage, &Tab::image()) == USES && text(&stage, &buffer()).contains("highp float"));
     // Toggling the bar limits it to one text again.
     press(&mut stage, CTRL_SHIFT, Key::F);
     press(&mut stage, CTRL_SHIFT, Key::F);

@@ -4,6 +4,7 @@ mod text;
 
 use super::{
     actions::{ACTIONS, Action, Entry, Group},
+    editor::EditorAction,
     theme,
     ui_output::UiOutput,
 };
@@ -17,6 +18,22 @@ use text::{Paragraph, SHADERTOY, Section};
 const WIDTH: f32 = 700.0;
 /// The width of the column of keys.
 const KEYS: f32 = 190.0;
+
+/// The actions of the first hour, whose keys come first: those that work where the focus was.
+const FIRST: [Action; 12] = [
+    Action::TogglePlay,
+    Action::Reset,
+    Action::Save,
+    Action::Palette,
+    Action::Code(EditorAction::Propose),
+    Action::Code(EditorAction::QuickFix),
+    Action::NextProblem,
+    Action::Find,
+    Action::Present,
+    Action::Fullscreen,
+    Action::Screenshot,
+    Action::NextPanel,
+];
 
 /// The page while it is open.
 pub(super) struct Help {
@@ -75,6 +92,10 @@ impl Help {
     fn contents(&self, ui: &mut Ui, out: &mut UiOutput) {
         let wanted = SearchTerms::new(&self.search);
         let mut is_empty = true;
+        if self.search.trim().is_empty() {
+            title(ui, "Keys of the first hour");
+            key_list(ui, "first keys", FIRST.map(|action| (out.keys.hint(action), action.title())).into_iter());
+        }
         for section in &self.sections {
             let all = wanted.is_in(&section.title);
             let list: Vec<_> = section.paragraphs.iter().filter(|p| all || wanted.is_in(p.text())).collect();
@@ -109,15 +130,7 @@ impl Help {
             }
             is_empty = false;
             title(ui, &format!("Keys: {}", group.title()));
-            let grid = Grid::new(group.title()).num_columns(2).min_col_width(KEYS).spacing([20.0, 5.0]).striped(true);
-            // Titles wrap: a long one would make the page wider than its header.
-            grid.max_col_width((ui.available_width() - KEYS - 20.0).max(KEYS)).show(ui, |ui| {
-                for entry in list {
-                    ui.label(RichText::new(keys(entry)).color(theme::of(ui).strong));
-                    ui.label(entry.title);
-                    ui.end_row();
-                }
-            });
+            key_list(ui, group.title(), list.into_iter().map(|entry| (keys(entry), entry.title)));
         }
         if is_empty {
             ui.add_space(20.0);
@@ -126,6 +139,19 @@ impl Help {
         }
         ui.add_space(8.0);
     }
+}
+
+/// Shows keys and what they do.
+fn key_list<'a>(ui: &mut Ui, id: &str, rows: impl Iterator<Item = (String, &'a str)>) {
+    let grid = Grid::new(id).num_columns(2).min_col_width(KEYS).spacing([20.0, 5.0]).striped(true);
+    // Titles wrap: a long one would make the page wider than its header.
+    grid.max_col_width((ui.available_width() - KEYS - 20.0).max(KEYS)).show(ui, |ui| {
+        for (keys, title) in rows {
+            ui.label(RichText::new(keys).color(theme::of(ui).strong));
+            ui.label(title);
+            ui.end_row();
+        }
+    });
 }
 
 /// Returns how far keys scroll the page, in points: all keys except those that type in the search field.

@@ -6,9 +6,8 @@ use super::{
     accessible,
     actions::{ACTIONS, Action},
     theme,
-    ui_output::UiOutput,
+    ui_output::{Request, UiOutput},
 };
-use crate::session::Command;
 use egui::{
     Align2, Area, FontId, Frame, Id, Key, Margin, Modifiers, Order, Rect, Sense, TextEdit, Ui, pos2, text::LayoutJob,
     vec2,
@@ -31,6 +30,8 @@ pub(super) struct Palette {
 #[derive(Default)]
 struct Open {
     typed: String,
+    /// What is listed instead of the actions.
+    only: Option<Vec<Offer>>,
     selected: usize,
     /// The first visible row.
     top: usize,
@@ -48,11 +49,12 @@ struct Keys {
 }
 
 /// An entry that depends on the open project or on this machine.
+#[derive(Clone)]
 pub(super) struct Offer {
     /// The name for scripts that click on it.
     pub name: String,
     pub title: String,
-    pub command: Command,
+    pub request: Request,
 }
 
 #[derive(Clone, Copy)]
@@ -75,6 +77,14 @@ impl Palette {
     pub(super) fn open(&mut self, ui: &Ui) {
         self.before = ui.memory(|m| m.focused());
         self.open = Some(Open { takes_focus: true, ..Open::default() });
+    }
+
+    /// Opens the palette with these entries in place of the actions.
+    pub(super) fn open_with(&mut self, ui: &Ui, offers: Vec<Offer>) {
+        self.open(ui);
+        if let Some(open) = &mut self.open {
+            open.only = Some(offers);
+        }
     }
 
     pub(super) fn is_open(&self) -> bool {
@@ -104,7 +114,12 @@ impl Palette {
     /// chosen offer, and closes.
     pub(super) fn show(&mut self, ui: &Ui, offers: &[Offer], out: &mut UiOutput) -> Option<Action> {
         let open = self.open.as_mut()?;
-        let fits = fits(&open.typed, &self.recent, offers);
+        let only = open.only.clone();
+        let list = |typed: &str| match &only {
+            Some(only) => fits_of(typed, only),
+            None => fits(typed, &self.recent, offers),
+        };
+        let fits = list(&open.typed);
         let window = ui.ctx().content_rect();
         let width = WIDTH.min(window.width() - 24.0);
         let rows = (((window.height() - 110.0) / ROW) as usize).clamp(1, ROWS);
@@ -121,7 +136,8 @@ impl Palette {
             Frame::popup(ui.style()).inner_margin(Margin::same(6)).show(ui, |ui| {
                 ui.set_width(width);
                 let field = TextEdit::singleline(&mut open.typed).id(Id::unique("palette field"));
-                let field = field.hint_text("Type a command").desired_width(f32::INFINITY);
+                let hint = if only.is_some() { "Type a name" } else { "Type a command" };
+                let field = field.hint_text(hint).desired_width(f32::INFINITY);
                 let field = ui.add(field.margin(Margin::symmetric(8, 6)));
                 out.place("field:palette", field.rect);
                 if std::mem::take(&mut open.takes_focus) {
@@ -135,7 +151,8 @@ impl Palette {
                 ui.add_space(4.0);
                 ui.spacing_mut().item_spacing.y = 0.0;
                 if fits.is_empty() {
-                    ui.colored_label(theme::of(ui).weak, "No matching command.");
+                    let what = if only.is_some() { "name" } else { "command" };
+                    ui.colored_label(theme::of(ui).weak, format!("No matching {what}"));
                 }
                 for (i, fit) in fits.iter().enumerate().skip(open.top).take(rows) {
                     let (rect, response) = ui.allocate_exact_size(vec2(width, ROW), Sense::click());
@@ -166,7 +183,7 @@ impl Palette {
         });
         // Letters and Enter in one frame: choose among the rows that match the letters.
         let (fits, chosen) = match is_retyped && open.keys.enter {
-            true => (self::fits(&open.typed, &self.recent, offers), Some(0)),
+            true => (list(&open.typed), Some(0)),
             false => (fits, chosen),
         };
         let choice = chosen.and_then(|i| fits.get(i)).map(|fit| fit.choice);
@@ -175,7 +192,7 @@ impl Palette {
                 self.recent.retain(|a| *a != action);
                 self.recent.insert(0, action);
             }
-            Some(Choice::Offer(offer)) => out.ask(offer.command.clone()),
+            Some(Choice::Offer(offer)) => out.request(offer.request.clone()),
             None => {}
         }
         if closes || choice.is_some() {
@@ -207,6 +224,20 @@ impl Open {
             self.selected = self.selected.clamp(self.top, (self.top + rows - 1).min(last));
         }
     }
+}
+
+/// Returns the matching entries, best first.
+fn fits_of<'a>(typed: &str, offers: &'a [Offer]) -> Vec<Fit<'a>> {
+    let fit = |offer: &'a Offer| {
+        let (cost, letters) = fuzzy::fit(typed, &offer.title)?;
+        Some((
+            cost,
+            Fit { name: &offer.name, title: &offer.title, choice: Choice::Offer(offer), letters, synonym: None },
+        ))
+    };
+    let mut found: Vec<_> = offers.iter().filter_map(fit).collect();
+    found.sort_by_key(|(cost, _)| *cost);
+    found.into_iter().map(|(_, fit)| fit).collect()
 }
 
 /// Returns the matches, best first; everything before anything is typed, the actions first.
@@ -262,11 +293,12 @@ fn row(ui: &Ui, rect: Rect, fit: &Fit<'_>, key: &str, is_selected: bool) {
 mod tests {
     use super::*;
     use crate::gui::{
-        actions::{PictureAction, SIZES},
+        actions::{PictureAction, SIZES, TimeAction},
+        editor::{EditorAction as Code, Vertical},
         panels::Panel,
         settings::Theme,
     };
-    use crate::session::TransportCommand;
+    use crate::session::{Command, TransportCommand};
 
     fn action(fit: &Fit<'_>) -> Option<Action> {
         match fit.choice {
@@ -315,6 +347,51 @@ mod tests {
             ("presentation", A::Present),
             ("4k", A::Picture(PictureAction::Size(SIZES[5]))),
             ("dark mode", A::Theme(Theme::Dark)),
+            ("midi", A::Settings),
+            ("osc", A::Settings),
+            ("controllers", A::Settings),
+            ("format", A::Code(Code::Format)),
+            ("beautify", A::Code(Code::Format)),
+            ("clang", A::Code(Code::Format)),
+            ("outline", A::GoToSymbol),
+            ("symbols", A::GoToSymbol),
+            ("functions", A::GoToSymbol),
+            ("duplicate lines", A::Code(Code::CopyLines(Vertical::Down))),
+            ("snippet", A::Code(Code::Propose)),
+            ("autocomplete", A::Code(Code::Propose)),
+            ("intellisense", A::Code(Code::Propose)),
+            ("uncomment", A::Code(Code::ToggleComment)),
+            ("collapse", A::Code(Code::Fold)),
+            ("expand", A::Code(Code::Unfold)),
+            ("multicursor", A::Code(Code::AddNext)),
+            ("refactor", A::Code(Code::Rename)),
+            ("usages", A::Code(Code::Uses)),
+            ("declaration", A::Code(Code::Definition)),
+            ("lightbulb", A::Code(Code::QuickFix)),
+            ("fix all", A::FixAll),
+            ("errors", A::NextProblem),
+            ("grep", A::FindEverywhere),
+            ("substitute", A::Replace),
+            ("softwrap", A::WordWrap),
+            ("reload", A::Compile),
+            ("build", A::Compile),
+            ("rewind", A::Reset),
+            ("pause", A::TogglePlay),
+            ("resume", A::TogglePlay),
+            ("seek", A::Time(TimeAction::GoTo)),
+            ("volume", A::Mute),
+            ("exit", A::Quit),
+            ("manual", A::Help),
+            ("documentation", A::Help),
+            ("inspect", A::Probe),
+            ("heat map", A::CountCost),
+            ("hotspot", A::CountCost),
+            ("publish", A::ExportPage),
+            ("projector", A::Fullscreen),
+            ("day mode", A::Theme(Theme::Light)),
+            ("templates", A::Gallery),
+            ("numpy", A::SaveTexels),
+            ("textures", A::Passes),
         ] {
             assert_eq!(first(typed), wanted, "{typed}");
         }
@@ -341,9 +418,10 @@ mod tests {
         let offer = |name: &str, title: &str| Offer {
             name: name.into(),
             title: title.into(),
-            command: Command::Transport(TransportCommand::Play),
+            request: Command::Transport(TransportCommand::Play).into(),
         };
         let offers = [offer("show:Image", "Show pass: Image"), offer("recent:/x/waves", "Open recent: waves (/x)")];
+        assert_eq!(fits_of("img", &offers).iter().map(|fit| fit.name).collect::<Vec<_>>(), ["show:Image"]);
         let all = fits("", &[], &offers);
         assert_eq!(all.len(), ACTIONS.len() + 1);
         assert_eq!(all.last().unwrap().name, "recent:/x/waves");

@@ -146,6 +146,18 @@ impl Shell {
             Action::FindNext => self.code.find_next(true),
             Action::FindPrevious => self.code.find_next(false),
             Action::FindCase => self.code.switch_find(|query| query.match_case = !query.match_case),
+            Action::FindWord => self.code.switch_find(|query| query.whole_word = !query.whole_word),
+            Action::FindInSelection => self.code.toggle_find_in_selection(),
+            Action::GoToSymbol => {
+                self.leave_gallery(out);
+                self.overlays.palette.open_with(ui, Self::symbols(session));
+            }
+            Action::FixAll => match self.code.fix_all(session, out) {
+                Ok(0) => out.notify(Level::Info, "No problem has exactly one fix."),
+                Ok(1) => out.notify(Level::Info, "Fixed 1 problem."),
+                Ok(n) => out.notify(Level::Info, format!("Fixed {n} problems.")),
+                Err(why) => out.notify(Level::Info, why),
+            },
             Action::FindRegex => self.code.switch_find(|query| query.is_regex = !query.is_regex),
             Action::ReplaceAll => self.code.replace_all(out),
             Action::GoToLine => self.code.open_go_to_line(),
@@ -245,14 +257,38 @@ impl Shell {
         let shows = passes.map(|id| Offer {
             name: format!("show:{}", id.title()),
             title: format!("Show pass: {}", id.title()),
-            command: Command::View(ViewCommand::ShowPass(id)),
+            request: Command::View(ViewCommand::ShowPass(id)).into(),
         });
         let opens = session.recent().iter().take(RECENT).map(|project| Offer {
             name: format!("recent:{}", project.path.display()),
             title: format!("Open recent: {} ({})", recent::title(&project.path), recent::parent(&project.path)),
-            command: Command::File(FileCommand::Open(project.spec())),
+            request: Command::File(FileCommand::Open(project.spec())).into(),
         });
         shows.chain(opens).collect()
+    }
+
+    /// Returns the declarations of the text in front, and of those that it shares or includes.
+    fn symbols(session: &Session) -> Vec<Offer> {
+        let Some(analysis) = session.analysis() else { return Vec::new() };
+        let mut tabs = session.tabs();
+        tabs.sort_by_key(|tab| *tab != analysis.front);
+        let mut offers = Vec::new();
+        for tab in tabs {
+            let Some(source) = analysis.source_of(&tab) else { continue };
+            let text = analysis.analysis.text(source).unwrap_or_default();
+            let file = if tab == analysis.front { String::new() } else { format!("  {}", tab.title()) };
+            for symbol in analysis.analysis.outline(source) {
+                let before = text.get(..symbol.place.start).unwrap_or_default();
+                let start = before.rfind('\n').map_or(0, |end| end + 1);
+                let place = (before.matches('\n').count(), before[start..].chars().count());
+                offers.push(Offer {
+                    name: format!("symbol:{}", symbol.name),
+                    title: format!("{}{file}", if symbol.detail.is_empty() { &symbol.name } else { &symbol.detail }),
+                    request: ShellCommand::GoTo(tab.clone(), Some(place)).into(),
+                });
+            }
+        }
+        offers
     }
 
     /// Draws the value of the expression at the caret, or returns to the picture if that value is already drawn.

@@ -196,7 +196,9 @@ impl Shell {
             self.overlays.settings_page.as_mut().is_some_and(|page| page.is_check_due(ui, Instant::now()));
         let is_read = self.config.is_back(ui) | is_check_due;
         let errors = if is_read { self.config.refresh() } else { Vec::new() };
-        let mut out = UiOutput::new(ActiveKeymap::new(self.config.keys.keymap().clone(), self.listening(ui)));
+        let listening = self.listening(ui);
+        let shown_for = self.overlays.focus_below(listening);
+        let mut out = UiOutput::new(ActiveKeymap::new(self.config.keys.keymap().clone(), shown_for));
         if is_read {
             // Drop notices of fixed problems, and show repeated ones once.
             let is_over = |text: &String| self.config.is_fixed(text) || errors.contains(text);
@@ -374,6 +376,11 @@ impl Shell {
     fn run_command(&mut self, ui: &Ui, session: &Session, command: ShellCommand, out: &mut UiOutput) {
         match command {
             ShellCommand::Act(action) => self.act(ui, session, action, out),
+            ShellCommand::ShowInFolder(path) => {
+                if let Err(text) = self.browser.show_in_folder(path, &self.wake) {
+                    out.notify(Level::Warning, text);
+                }
+            }
             ShellCommand::ClosePanel(panel) => self.dock.set_open(panel, false),
             ShellCommand::PasteCode => self.clipboard.is_wanted_by_code = true,
             ShellCommand::Fix(fix) => {

@@ -1,6 +1,6 @@
 //! Modes in which the window shows something else than its panels, and what is open over them.
 
-use crate::gui::{help::Help, palette::Palette, settings_page::SettingsPage};
+use crate::gui::{actions::KeyFocus, help::Help, palette::Palette, settings_page::SettingsPage};
 
 /// Modes in which the window shows something else than its panels.
 #[derive(Clone, Copy, Default)]
@@ -19,9 +19,19 @@ pub(super) struct Overlays {
     pub help: Option<Help>,
     pub settings_page: Option<SettingsPage>,
     pub palette: Palette,
+    /// The keyboard focus before one of them was opened, which the keys that they show are for.
+    before: KeyFocus,
 }
 
 impl Overlays {
+    /// Returns the keyboard focus below what is open. `now`: the current one.
+    pub(super) fn focus_below(&mut self, now: KeyFocus) -> KeyFocus {
+        if !self.is_any_open() {
+            self.before = now;
+        }
+        self.before
+    }
+
     pub(super) fn is_any_open(&self) -> bool {
         self.help.is_some() || self.settings_page.is_some() || self.palette.is_open()
     }

@@ -5,7 +5,7 @@ use crate::{
     gui::{
         actions::Action,
         panels::{Panel, PanelContext},
-        theme, toasts, top_bar,
+        problems, theme, toasts, top_bar,
         ui_output::{ShellCommand, UiOutput},
         viewport::ViewportMode,
     },
@@ -30,7 +30,7 @@ impl Shell {
         if self.modes.gallery {
             self.watch_costs(false, out);
             let can_close = session.project().origin != Origin::Unsaved || session.is_dirty();
-            toasts::panel(ui, session, out);
+            toasts::panel(ui, session, ui.available_height() * 0.4, out);
             let frame = Frame::NONE.fill(p.background);
             CentralPanel::default().frame(frame).show(ui, |ui| {
                 self.gallery.show(ui, session, &mut self.thumbnails, can_close, out);
@@ -41,7 +41,15 @@ impl Shell {
             out.shell_commands.push(ShellCommand::GoTo(tab, Some((0, 0))));
         }
         if !self.dock.is_seen(Panel::Code) {
-            toasts::panel(ui, session, out);
+            let limit = ui.available_height() * 0.4;
+            // The text is written in another editor: its errors are listed here.
+            let problems = if problems::has_errors(session) {
+                let room = limit - problems::STATE - toasts::ROW;
+                problems::panel(ui, session, None, room, out)
+            } else {
+                0.0
+            };
+            toasts::panel(ui, session, limit - problems, out);
         }
         let under_picture = if self.dock.is_seen(Panel::Picture) { self.viewport.under() } else { None };
         let Self { viewport, code, lab, project_ui, recorder, config, thumbnails, live, wake, dock, .. } = self;

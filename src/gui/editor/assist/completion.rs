@@ -82,9 +82,8 @@ impl Popup {
     }
 
     /// Returns the selected item and the range that it replaces.
-    pub(super) fn choice(&self, buffer: &Buffer) -> Option<(Range<usize>, String)> {
-        let label = self.item(self.selected)?.label.clone();
-        Some((self.start()..buffer.selection().head, label))
+    pub(super) fn choice(&self, buffer: &Buffer) -> Option<(Range<usize>, &Completion)> {
+        Some((self.start()..buffer.selection().head, self.item(self.selected)?))
     }
 
     /// Shows the list below `at`, the start of the word, or above it if there is no room. Returns true if a row was

@@ -9,7 +9,10 @@ mod draw;
 mod tips;
 
 use super::{buffer::Buffer, history, lines::Lines, look::Help};
-use crate::{diag::Span, glsl::services::SignatureHelp};
+use crate::{
+    diag::Span,
+    glsl::services::{CompletionKind, SignatureHelp},
+};
 use completion::Popup;
 use egui::{Event, Key, Rect, Ui};
 use std::ops::Range;
@@ -185,9 +188,17 @@ impl Assist {
         self.question = None;
     }
 
+    /// Inserts the selected item. A function gets its parentheses, and the caret between them if it has parameters.
     fn accept(&mut self, buffer: &mut Buffer) {
-        let Some((range, label)) = self.popup.as_ref().and_then(|popup| popup.choice(buffer)) else { return };
-        buffer.replace(range, &label, history::Kind::Other);
+        let Some((range, item)) = self.popup.as_ref().and_then(|popup| popup.choice(buffer)) else { return };
+        let is_function = matches!(item.kind, CompletionKind::Function | CompletionKind::Builtin);
+        if is_function && !buffer.text()[range.end..].starts_with('(') {
+            let has_parameters = !item.detail.contains("()");
+            buffer.replace_by_call(range, &item.label, has_parameters);
+            self.signature_is_on |= has_parameters;
+        } else {
+            buffer.replace(range, &item.label, history::Kind::Other);
+        }
         self.close();
     }
 

@@ -59,22 +59,25 @@ fn type_into(text: &str, input: &str) -> (Assist, String) {
 #[test]
 fn popups_take_only_their_keys() {
     for (input, text) in [
-        ("nor<Enter>", "x = normalize; }"),
-        ("nor<Tab>", "x = normalize; }"),
+        ("nor<Enter>", "x = normalize(); }"),
+        ("nor<Tab>", "x = normalize(); }"),
+        // The closing parenthesis is typed over, and one that is there is used.
+        ("nor<Tab>p) + 1.", "x = normalize(p) + 1.; }"),
+        ("(p)<Left><Left><Left>nor<Tab>", "x = normalize(p); }"),
         // A complete word: Enter goes to the text.
         ("normalize<Enter>", "x = normalize\n; }"),
         ("sin<Enter>", "x = sin\n; }"),
         // Picked explicitly, so Enter accepts.
-        ("sin<Down><Up><Down><Enter>", "x = sinh; }"),
+        ("sin<Down><Up><Down><Enter>", "x = sinh(); }"),
         // The item does not start with these letters, so Enter accepts it only if it was picked; Tab always does.
         ("sms<Enter>", "x = sms\n; }"),
-        ("sms<Tab>", "x = smoothstep; }"),
-        ("sms<Down><Up><Enter>", "x = smoothstep; }"),
+        ("sms<Tab>", "x = smoothstep(); }"),
+        ("sms<Down><Up><Enter>", "x = smoothstep(); }"),
         // Closed by Escape, and stays closed for this word.
         ("nor<Escape>m<Enter>", "x = norm\n; }"),
-        ("nor<Escape> + nor<Tab>", "x = nor + normalize; }"),
+        ("nor<Escape> + nor<Tab>", "x = nor + normalize(); }"),
         ("n<Enter>", "x = n\n; }"),
-        ("n<Ctrl+Space><Enter>", "x = normalize; }"),
+        ("n<Ctrl+Space><Enter>", "x = normalize(); }"),
         ("norx<Backspace><Enter>", "x = nor\n; }"),
         ("p.<Enter>", "x = p.\n; }"),
         ("p.<Tab>", "x = p.x; }"),
@@ -120,6 +123,8 @@ fn signature_stays_open_inside_the_call() {
         ("clamp(1.0, 2.0)", None),
         ("clamp(<Escape>1.0", None),
         ("clamp(<Enter>", None),
+        ("clam<Tab>", Some(0)),
+        ("clam<Tab>1.0, ", Some(1)),
     ] {
         let (assist, _) = type_into("void f(vec2 p) { @\n}", input);
         assert_eq!(assist.signature.map(|s| s.parameter), parameter, "{input}");
