@@ -291,7 +291,7 @@ const OWN: &[Entry] = &[
     row(Action::FindPrevious, "find-previous", "Find previous", &["Shift+F3"], Group::Search),
     row(Action::GoToLine, "go-to-line", "Go to line", &["Ctrl+G"], Group::Search),
     row(Action::GoToSymbol, "go-to-symbol", "Go to symbol in outline", &["Ctrl+R"], Group::Search)
-        .found_by("outline functions structure declaration"),
+        .found_by("symbols functions structure declarations"),
     row(Action::NextProblem, "next-problem", "Go to next problem", &["F8"], Group::Search)
         .found_by("errors warnings diagnostics"),
     row(Action::PreviousProblem, "previous-problem", "Go to previous problem", &["Shift+F8"], Group::Search),
