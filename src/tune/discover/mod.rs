@@ -5,10 +5,11 @@ mod tests;
 
 use crate::{
     knob::{Kind, Knob, Target, half},
+    savings::Place,
     search::Ladder,
 };
 use eddy_diag::{SourceMap, Span};
-use eddy_engine::Sources;
+use eddy_engine::{Sources, counts::Line};
 use eddy_glsl::knobs::{Declared, Number, Role, RoleKind};
 use eddy_project::{CustomUniformType, Filter, Input, Origin, PassSize, Project};
 use serde::Serialize;
@@ -68,7 +69,7 @@ impl Found {
 
     fn number(&mut self, project: &Project, texts: &SourceMap, number: Number, used: &mut BTreeMap<String, u32>) {
         if number.declared == Declared::Uniform {
-            self.uniform(project, texts, &number.name, number.roles.first().map(|role| sentence(texts, role)));
+            self.uniform(project, texts, &number.name, &number.roles);
             return;
         }
         let place = place(texts, number.span);
@@ -121,6 +122,7 @@ impl Found {
         }
         let mut knob = knob(name.clone(), &number, kind, role.grows, (place.clone(), why));
         knob.column = texts.line_column(number.span).map(|at| at.column);
+        knob.places = places(texts, &number.roles);
         let is_literal = number.declared == Declared::Literal;
         let reason = match () {
             () if number.value <= 0.0 => Some("it is not above 0"),
@@ -137,7 +139,7 @@ impl Found {
     }
 
     /// Adds a slider, if it has one component.
-    fn uniform(&mut self, project: &Project, texts: &SourceMap, name: &str, why: Option<String>) {
+    fn uniform(&mut self, project: &Project, texts: &SourceMap, name: &str, roles: &[Role]) {
         let declared = project.custom_uniforms();
         let Some(uniform) = declared.get(name) else { return };
         if self.knobs.iter().any(|knob| knob.name == name) {
@@ -159,7 +161,8 @@ impl Found {
             grows: true,
             place,
             column: None,
-            why: why.unwrap_or_else(|| "its line is marked //@tune".into()),
+            why: roles.first().map_or_else(|| "its line is marked //@tune".into(), |role| sentence(texts, role)),
+            places: places(texts, roles),
             ladder: Ladder { values: vec![value], is_continuous: true, is_integer },
             finest: None,
         };
@@ -186,7 +189,7 @@ impl Found {
             let Some(text) = texts.get(uniform.span.source) else { continue };
             let line = text.text[uniform.span.start as usize..].lines().next().unwrap_or("");
             if line.contains("//@tune") || line.contains("// @tune") {
-                self.uniform(project, texts, &uniform.name, None);
+                self.uniform(project, texts, &uniform.name, &[]);
             }
         }
     }
@@ -214,6 +217,7 @@ impl Found {
             place,
             column: None,
             why,
+            places: Vec::new(),
             ladder: Ladder { values: values.to_vec(), is_continuous: false, is_integer: false },
             finest: None,
         };
@@ -339,6 +343,7 @@ fn knob(name: String, number: &Number, kind: Kind, grows: bool, (place, why): (S
         place,
         column: None,
         why,
+        places: Vec::new(),
         ladder: Ladder { values: vec![number.value], is_continuous: true, is_integer: false },
         finest: None,
     };
@@ -363,6 +368,16 @@ fn place(texts: &SourceMap, span: Span) -> String {
     let name = texts.get(span.source).map_or("", |text| &*text.name);
     let line = texts.line_column(span).map_or(0, |at| at.line);
     format!("{name}:{line}")
+}
+
+/// Returns the places where the roles decide how often code runs.
+fn places(texts: &SourceMap, roles: &[Role]) -> Vec<Place> {
+    let place = |role: &Role| {
+        let number = u32::try_from(texts.line_column(role.at)?.line).ok()?;
+        let line = Line { source: role.at.source, number };
+        Some(Place { span: role.at, line, is_bound: role.kind == RoleKind::LoopBound })
+    };
+    roles.iter().filter(|role| role.is_work()).filter_map(place).collect()
 }
 
 fn sentence(texts: &SourceMap, role: &Role) -> String {

@@ -38,7 +38,8 @@ fn search(program: impl Fn(&[f64]) -> Option<(f64, f64)>, tops: &[f64], goal: Go
     let mut search = Search::default();
     let base = subject.measure(tops).unwrap().unwrap();
     search.add(base);
-    search.one_at_a_time(&mut subject, tops, &ladders, &vec![true; tops.len()], 0.2).unwrap();
+    let order: Vec<usize> = (0..tops.len()).collect();
+    search.one_at_a_time(&mut subject, tops, &ladders, (&vec![true; tops.len()], &order), 0.2).unwrap();
     search.run(&mut subject, tops, &ladders, goal).unwrap();
     let best = goal.best(search.points.iter()).unwrap().clone();
     let mut all = vec![Vec::new()];
