@@ -5,7 +5,9 @@ use crate::{
     metric::Metric,
     savings::Counts,
 };
-use eddy_engine::{BuildError, BuildOptions, Builder, CostClock, DrawFor, Engine, EngineError, FrameInputs, Pixels, counts::Prices};
+use eddy_engine::{
+    BuildError, BuildOptions, Builder, CostClock, DrawFor, Engine, EngineError, FrameInputs, Pixels, counts::Prices,
+};
 use eddy_gpu::Gpu;
 use eddy_media::MediaSet;
 use eddy_playback::{assertion::Conditions, comparing::first_error, median, offline, script::ScriptedInputs};
@@ -200,9 +202,10 @@ impl<'s> Bench<'s> {
             if Instant::now() >= deadline || stamped.is_some_and(|millis| millis < LEAST_PART * frame) {
                 continue;
             }
-            let counted = present.engine.counting(project, &pass.id).and_then(|program| {
-                Ok(present.engine.count(&program, prices, &mut || Instant::now() >= deadline)?)
-            });
+            let counted = present
+                .engine
+                .counting(project, &pass.id)
+                .and_then(|program| Ok(present.engine.count(&program, prices, &mut || Instant::now() >= deadline)?));
             match counted {
                 Ok(counted) => {
                     let millis = stamped.unwrap_or(counted.predicted_millis());
@@ -285,12 +288,7 @@ impl<'s> Bench<'s> {
 
     /// Returns the ratio of a setting's time to that of the present one. Slow frames are compared draw by draw; others
     /// are drawn alternately.
-    fn ratio(
-        &mut self,
-        running: &mut Running,
-        (at, seeds): (&[u32], u32),
-        millis: &[f64],
-    ) -> Result<f64, EngineError> {
+    fn ratio(&mut self, running: &mut Running, (at, seeds): (&[u32], u32), millis: &[f64]) -> Result<f64, EngineError> {
         let is_slow = self.present_millis.last().is_some_and(|millis| *millis > SLOW_MILLIS);
         if is_slow
             && let Some((known_at, known_seeds, known)) = &self.present_draws
@@ -324,9 +322,9 @@ impl<'s> Bench<'s> {
         Ok(median(ratios).unwrap_or(f64::NAN))
     }
 
-    /// Times settings in at most as many alternating `turns` as there is time for, and returns the median milliseconds
-    /// per frame of each; NaN without time. Settings that do not compile are infinite.
-    pub(crate) fn interleaved(&mut self, settings: &[Vec<f64>], turns: u32) -> Result<Vec<f64>, EngineError> {
+    /// Times settings in at most as many alternating `turns` as there is time for. Returns the milliseconds per frame of
+    /// each in each turn: none without time, or if it does not compile.
+    pub(crate) fn interleaved(&mut self, settings: &[Vec<f64>], turns: u32) -> Result<Vec<Vec<f64>>, EngineError> {
         let mut open = Vec::new();
         for values in settings {
             open.push(self.open(values)?.ok());
@@ -348,9 +346,7 @@ impl<'s> Bench<'s> {
                 break;
             }
         }
-        let found = times.into_iter().zip(&open);
-        let missing = |is_open: bool| if is_open { f64::NAN } else { f64::INFINITY };
-        Ok(found.map(|(times, running)| median(times).unwrap_or(missing(running.is_some()))).collect())
+        Ok(times)
     }
 
     /// Returns the conditions of claims.

@@ -138,10 +138,9 @@ fn part_in(counts: &PassCounts, loops: &[usize]) -> f64 {
                     let there: f64 = callers.iter().map(|at| runs(at) * parts[*at]).sum();
                     if all > 0.0 { there / all } else { 0.0 }
                 }
-                Entered::Branch(from)
-                | Entered::Iteration(from)
-                | Entered::Continuing(from)
-                | Entered::After(from) => parts[*from],
+                Entered::Branch(from) | Entered::Iteration(from) | Entered::Continuing(from) | Entered::After(from) => {
+                    parts[*from]
+                }
             };
             changed |= (part - parts[at]).abs() > 1e-9;
             parts[at] = part;
@@ -154,4 +153,32 @@ fn part_in(counts: &PassCounts, loops: &[usize]) -> f64 {
     let all: f64 = (0..blocks.len()).map(nanos).sum::<f64>() + counts.prices.pixel * counts.pixels as f64;
     let there: f64 = (0..blocks.len()).map(|at| nanos(at) * parts[at]).sum();
     if all > 0.0 { there / all } else { 0.0 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Found, Kind};
+    use eddy_project::Project;
+
+    fn knob(text: &str) -> Knob {
+        Found::new(&Project::of_image("test".into(), text.into())).knobs.remove(0)
+    }
+
+    #[test]
+    fn a_loop_saves_at_most_its_share() {
+        let text = "#define STEPS 64\nvoid mainImage(out vec4 o, in vec2 p) {\n  o = vec4(0);\n  for (int i = 0; i < STEPS; i++) o += .01;\n}";
+        let knob = knob(text);
+        assert_eq!((knob.kind, knob.places.len(), knob.places[0].line.number), (Kind::Count, 1, 4));
+        let saving = Saving { share: 0.4, power: 1, most: Some(20.0) };
+        let close = |a: f64, b: f64| assert!((a - b).abs() < 1e-9, "{a} {b}");
+        close(saving.at_most(&knob, 64.0), 0.0);
+        close(saving.at_most(&knob, 128.0), 0.0);
+        // Half the steps, with what the estimate may be off.
+        close(saving.at_most(&knob, 32.0), 0.5 * (0.4 * SLACK + MORE));
+        close(Saving { power: 2, ..saving }.at_most(&knob, 32.0), 0.75 * (0.4 * SLACK + MORE));
+        close(Saving { share: 1.0, ..saving }.at_most(&knob, 16.0), 0.75);
+        assert!(saving.is_unreached(64.0) && !saving.is_unreached(24.0));
+        assert!(!Saving { most: None, ..saving }.is_unreached(64.0));
+    }
 }

@@ -10,7 +10,7 @@ use crate::{
 };
 use eddy_diag::{SourceMap, Span};
 use eddy_engine::{Sources, counts::Line};
-use eddy_glsl::knobs::{Declared, Number, Role, RoleKind};
+use eddy_glsl::knobs::{Declared, Number, NumberType, Role, RoleKind};
 use eddy_project::{CustomUniformType, Filter, Input, Origin, PassSize, Project};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -126,6 +126,7 @@ impl Found {
         let is_literal = number.declared == Declared::Literal;
         let reason = match () {
             () if number.value <= 0.0 => Some("it is not above 0"),
+            () if is_mathematical(&number) => Some("it is a mathematical constant"),
             () if is_literal && kind != Kind::Count => Some("it has no name"),
             () if is_literal && number.value < LEAST_LITERAL => {
                 Some("it has no name and is small: a part of the method")
@@ -350,6 +351,13 @@ fn knob(name: String, number: &Number, kind: Kind, grows: bool, (place, why): (S
     knob.ladder.is_integer = knob.is_integer();
     knob.set_automatic_range();
     knob
+}
+
+/// Returns whether a number is a part of pi, or e, or the golden ratio or angle, written to three digits at least.
+fn is_mathematical(number: &Number) -> bool {
+    use std::f64::consts::{E, PI};
+    let parts = [PI / 4.0, PI / 3.0, PI / 2.0, PI, 2.0 * PI, E, 1.618_034, 0.618_034, 2.399_963];
+    number.ty == NumberType::Float && parts.iter().any(|part| (number.value / part - 1.0).abs() < 6e-4)
 }
 
 /// Knobs with a name come before those without, counts before tolerances, steps and distances.

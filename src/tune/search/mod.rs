@@ -100,6 +100,8 @@ pub struct Ladder {
 const FINEST: f64 = 1.09;
 /// A proposal must promise a gain of this factor over the best.
 const GAIN: f64 = 0.97;
+/// A changed knob has to promise this gain.
+const TIDY: f64 = 0.005;
 /// The most combinations that the model is asked for at once.
 const MOST_COMBINATIONS: usize = 10_000;
 
@@ -260,6 +262,9 @@ impl Search {
                 (false, false) => goal.excess(millis, error),
                 _ => continue,
             };
+            // Of settings that promise as much, the one that changes less.
+            let changed = values.iter().zip(model.base()).filter(|(value, base)| value != base).count();
+            let worth = worth * (1.0 + TIDY * changed as f64);
             let is_better = worth < least && chosen.as_ref().is_none_or(|(other, _)| worth < *other);
             if is_better && !self.is_known(&values) {
                 chosen = Some((worth, values));

@@ -3,6 +3,7 @@
 use super::{Reference, TuneError, Tuner, worst};
 use crate::{Goal, Point, Proposal};
 use eddy_engine::Pixels;
+use eddy_playback::median;
 
 /// Settings that are checked, and those that are timed beside each other in the end.
 const CHECKED: usize = 6;
@@ -16,6 +17,9 @@ const KEPT: f64 = 0.98;
 
 /// A setting that takes more than this part of the present time is not proposed where the present one keeps the bound.
 const LEAST_GAIN: f64 = 0.97;
+
+/// The part of the turns in which it has to be faster.
+const WINS: f64 = 0.7;
 
 /// The frames that are checked, and the reference there.
 struct Truth {
@@ -70,34 +74,50 @@ impl Tuner<'_> {
         self.say("the result beside the present setting")?;
         let settings: Vec<Vec<f64>> =
             [present.clone()].into_iter().chain(kept.iter().map(|(point, _)| point.values.clone())).collect();
-        let times = self.stage.bench.interleaved(&settings, TURNS)?;
-        let millis = |at: usize| if times[at + 1].is_nan() { kept[at].0.millis } else { times[at + 1] };
+        let turns = self.stage.bench.interleaved(&settings, TURNS)?;
+        let times: Vec<Option<f64>> = turns.iter().map(|turns| median(turns.clone())).collect();
+        let millis = |at: usize| times[at + 1].unwrap_or(kept[at].0.millis);
         let rank = |at: usize| match goal {
             Goal::Error(_) => millis(at),
             Goal::Budget(_) => kept[at].1,
         };
         let best = (0..kept.len()).min_by(|a, b| rank(*a).total_cmp(&rank(*b))).unwrap_or(0);
         let best_millis = millis(best);
+        let present_millis = times[0].unwrap_or_else(|| self.stage.bench.present_millis());
         // A change that saves nothing is none.
-        let base = self.stage.search.points.iter().find(|point| point.values == present).cloned();
-        let is_little = matches!(goal, Goal::Error(limit) if base.as_ref().is_some_and(|base| base.error <= limit));
-        if let Some(point) = base.filter(|_| is_little && best_millis > LEAST_GAIN * times[0])
-            && let Some(frames) = self.worst_frames(&point, &mut scanned)?
-            && let Some(error) = self.checked_error(&present, &frames.at, &mut truth)?
-            && worst(&[error, point.error]) <= limit * KEPT
-        {
-            let (checked_error, present_millis) = (worst(&[error, point.error]), times[0]);
-            let point = Point { millis: times[0], ..point };
-            return Ok(Some(Proposal { point, checked_error, present_millis }));
+        let is_faster = best_millis <= LEAST_GAIN * present_millis && wins(&turns[best + 1], &turns[0]) >= WINS;
+        if matches!(goal, Goal::Error(_)) && !is_faster && kept[best].0.values != present {
+            if let Some((point, checked_error)) = self.checked_present(&mut scanned, &mut truth)? {
+                let point = Point { millis: present_millis, ..point };
+                return Ok(Some(Proposal { point, checked_error, present_millis }));
+            }
         }
         let (point, checked_error) = kept.swap_remove(best);
         // The present setting beside itself would only show the noise of the measurement.
         if point.values == present {
-            let present_millis = point.millis;
+            let point = Point { millis: present_millis, ..point };
             return Ok(Some(Proposal { point, checked_error, present_millis }));
         }
-        let present_millis = if times[0].is_nan() { self.stage.bench.present_millis() } else { times[0] };
         Ok(Some(Proposal { point: Point { millis: best_millis, ..point }, checked_error, present_millis }))
+    }
+
+    /// Returns the present setting with its error in frames that are checked; `None` if it does not keep the bound.
+    fn checked_present(
+        &mut self,
+        scanned: &mut Option<Truth>,
+        truth: &mut Truth,
+    ) -> Result<Option<(Point, f64)>, TuneError> {
+        let (present, limit) = (self.present.clone(), self.request.bound.limit * KEPT);
+        let base = self.stage.search.points.iter().find(|point| point.values == present && point.error <= limit);
+        let Some(base) = base.cloned() else { return Ok(None) };
+        // It is the reference itself.
+        if present == self.converged {
+            return Ok(Some((base, 0.0)));
+        }
+        let Some(frames) = self.worst_frames(&base, scanned)? else { return Ok(None) };
+        let Some(error) = self.checked_error(&present, &frames.at, truth)? else { return Ok(None) };
+        let error = worst(&[error, base.error]);
+        Ok((error <= limit).then_some((base, error)))
     }
 
     /// Returns the frames that a setting is to be checked on at the requested size. `None` without time.
@@ -126,7 +146,8 @@ impl Tuner<'_> {
         let predicted = order.first().map_or(0.0, |(error, _)| error * ratio / 1.15);
         let seconds = self.request.limit.as_secs_f64() * (0.95 - self.part()).max(0.0);
         let per_frame = self.stage.bench.present_millis() / 1e3;
-        let count = if self.stage.bench.has_state { WORST } else { WORST.min((seconds / 8.0 / per_frame) as usize).max(1) };
+        let count =
+            if self.stage.bench.has_state { WORST } else { WORST.min((seconds / 8.0 / per_frame) as usize).max(1) };
         let mut at: Vec<u32> = order.into_iter().take(count).map(|(_, frame)| frame).collect();
         at.sort_unstable();
         Ok(Some(Frames { at, predicted }))
@@ -174,6 +195,13 @@ impl Tuner<'_> {
         let errors: Vec<f64> = at.iter().zip(&shots.pictures).map(of_frame).collect();
         Ok(Some(worst(&errors)))
     }
+}
+
+/// Returns the part of the turns in which a setting was faster than another; 1 without turns.
+fn wins(setting: &[f64], other: &[f64]) -> f64 {
+    let turns = setting.len().min(other.len());
+    let won = setting.iter().zip(other).filter(|(a, b)| a < b).count();
+    if turns == 0 { 1.0 } else { won as f64 / turns as f64 }
 }
 
 /// The frames that a setting is checked on.

@@ -61,7 +61,9 @@ pub enum TuneError {
     Engine(#[from] EngineError),
     #[error("the project does not compile as it is: {0}")]
     Present(String),
-    #[error("the present setting was not drawn in the time of the search: give it more with --time, or a smaller --size")]
+    #[error(
+        "the present setting was not drawn in the time of the search: give it more with --time, or a smaller --size"
+    )]
     Slow,
     #[error("cancelled")]
     Cancelled,
@@ -141,8 +143,7 @@ struct Tuner<'t> {
 pub fn tune(gpu: &Gpu, request: &Request, report: Report<'_>) -> Result<Tuning, TuneError> {
     let metric = &request.bound.metric;
     let began = Instant::now();
-    let bench =
-        Bench::new(gpu, (&request.scene, &request.knobs, metric), request.scene.size, began + request.limit);
+    let bench = Bench::new(gpu, (&request.scene, &request.knobs, metric), request.scene.size, began + request.limit);
     let (pass, target) = metric.reads();
     let present: Vec<f64> = request.knobs.iter().map(|knob| knob.value).collect();
     let tuner = Tuner {
@@ -201,12 +202,7 @@ impl Tuner<'_> {
     }
 
     /// Draws frames of a setting; `None`: it does not compile, or there is no time.
-    fn draw(
-        &mut self,
-        values: &[f64],
-        (at, seeds): (&[u32], u32),
-        is_timed: bool,
-    ) -> Result<Option<Shots>, TuneError> {
+    fn draw(&mut self, values: &[f64], (at, seeds): (&[u32], u32), is_timed: bool) -> Result<Option<Shots>, TuneError> {
         let name = self.named(values);
         self.say(name)?;
         let began = Instant::now();

@@ -76,11 +76,8 @@ impl Tuner<'_> {
             // The next step costs at most as much more again.
             let (first, last) = (millis(drawn, present[knob]), millis(drawn, from));
             let next = last * (last / first).max(2.0);
-            let draws = if self.stage.bench.has_state {
-                f64::from(at.last().copied().unwrap_or(0))
-            } else {
-                at.len() as f64
-            };
+            let draws =
+                if self.stage.bench.has_state { f64::from(at.last().copied().unwrap_or(0)) } else { at.len() as f64 };
             let seconds = next * (draws + 4.0) / 1e3;
             let left = self.seconds() * (self.stage.parts.converge - self.part());
             if seconds > left.max(0.0) {

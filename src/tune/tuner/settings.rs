@@ -161,12 +161,7 @@ impl Tuner<'_> {
     pub(super) fn second_stage(&mut self, ladders: &mut [Ladder]) -> Result<(), TuneError> {
         let request = self.request;
         let deadline = self.began + request.limit;
-        let bench = Bench::new(
-            self.gpu,
-            (&request.scene, &request.knobs, self.metric),
-            request.scene.size,
-            deadline,
-        );
+        let bench = Bench::new(self.gpu, (&request.scene, &request.knobs, self.metric), request.scene.size, deadline);
         let points = self.stage.search.points.clone();
         let stage = Stage {
             bench,
