@@ -116,7 +116,7 @@ fn tuned(machine: &mut Machine, report: &mut Report, args: &TuneArgs) -> Result<
         against_present: args.against_present,
         limit: args.time,
         earlier,
-        most_knobs: args.knob.is_empty().then_some(MOST_KNOBS),
+        most_knobs: (args.knob.is_empty() && args.range.is_empty()).then_some(MOST_KNOBS),
         prices: prices::kept_or_usual(&gpu, dirs::cache_dir().map(|dir| dir.join("eddy")).as_deref()),
         keeps_pictures: false,
         is_exhaustive: args.all,
@@ -194,7 +194,8 @@ fn knobs(project: Project, args: &TuneArgs) -> Result<(Project, Found), RunError
         found.choose(&args.knob).map_err(|why| anyhow!("--knob {why}"))?;
     } else if !args.list {
         let ranged = |knob: &Knob| args.range.iter().any(|(name, _)| *name == knob.name);
-        found.keep_most(MOST_FOUND, ranged);
+        // Where the user has chosen values, the counts do not choose knobs.
+        found.keep_most(if args.range.is_empty() { MOST_FOUND } else { MOST_KNOBS }, ranged);
     }
     Ok((project, found))
 }

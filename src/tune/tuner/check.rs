@@ -86,11 +86,13 @@ impl Tuner<'_> {
         let present_millis = times[0].unwrap_or_else(|| self.stage.bench.present_millis());
         // A change that saves nothing is none.
         let is_faster = best_millis <= LEAST_GAIN * present_millis && wins(&turns[best + 1], &turns[0]) >= WINS;
-        if matches!(goal, Goal::Error(_)) && !is_faster && kept[best].0.values != present {
-            if let Some((point, checked_error)) = self.checked_present(&mut scanned, &mut truth)? {
-                let point = Point { millis: present_millis, ..point };
-                return Ok(Some(Proposal { point, checked_error, present_millis }));
-            }
+        if matches!(goal, Goal::Error(_))
+            && !is_faster
+            && kept[best].0.values != present
+            && let Some((point, checked_error)) = self.checked_present(&mut scanned, &mut truth)?
+        {
+            let point = Point { millis: present_millis, ..point };
+            return Ok(Some(Proposal { point, checked_error, present_millis }));
         }
         let (point, checked_error) = kept.swap_remove(best);
         // The present setting beside itself would only show the noise of the measurement.

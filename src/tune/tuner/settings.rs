@@ -2,7 +2,7 @@
 
 use super::{Stage, TuneError, Tuner, VERIFY_PART, WHOLE, thinned};
 use crate::{
-    Knob, Point, Rejected,
+    Goal, Knob, Point, Rejected,
     bench::{Bench, Refusal},
     converge::{Convergence, finer},
     knob::Kind,
@@ -12,6 +12,8 @@ use crate::{
 
 /// A knob whose loops take less than this part of the time is not tried.
 const LEAST_SHARE: f64 = 0.02;
+/// Bounds, as multiples of the requested one, whose best settings in smaller pictures are drawn at the requested size.
+const BEYOND: [f64; 2] = [2.0, 1.4];
 
 impl Tuner<'_> {
     /// Returns whether the values of a knob are tried.
@@ -210,6 +212,20 @@ impl Tuner<'_> {
             }
         }
         let goal = self.goal();
+        // Edges are a smaller part of a larger picture: settings that were beyond the bound in small ones may keep it, and
+        // say by how much errors differ.
+        if let Goal::Error(limit) = goal {
+            for factor in BEYOND {
+                let best = Goal::Error(limit * factor).best(search.smaller.iter()).map(|point| point.values.clone());
+                let Some(values) = best.filter(|values| !search.points.iter().any(|point| point.values == *values))
+                else {
+                    continue;
+                };
+                if self.has_time() {
+                    self.measure(&values)?.into_iter().for_each(|point| search.add(point));
+                }
+            }
+        }
         search.run(self, &present, ladders, goal)?;
         self.stage.search = search;
         Ok(())
