@@ -53,15 +53,22 @@ fn linear(coded: f64) -> f64 {
 }
 
 /// Returns luma and two opponent colours, linear in light.
-fn opponent(coded: [f64; 3]) -> [f64; 3] {
-    let [x, y, z] = relative_xyz(coded.map(|v| linear(v.clamp(0.0, 1.0))));
+fn opponent(light: [f64; 3]) -> [f64; 3] {
+    let [x, y, z] = relative_xyz(light);
     [116.0 * y - 16.0, 500.0 * (x - y), 200.0 * (y - z)]
 }
 
-fn from_opponent([l, cx, cz]: [f64; 3]) -> [f64; 3] {
+/// Returns colours linear in light, by the inverse of [`XYZ`].
+fn from_opponent([l, cx, cz]: [f64; 3], inverse: &[[f64; 3]; 3]) -> [f64; 3] {
     let y = (l + 16.0) / 116.0;
     let (white, relative) = (times(&XYZ, [1.0; 3]), [y + cx / 500.0, y, y - cz / 200.0]);
-    solved(&XYZ, [0, 1, 2].map(|i| relative[i] * white[i]))
+    times(inverse, [0, 1, 2].map(|i| relative[i] * white[i]))
+}
+
+/// Returns the inverse of a matrix.
+fn inverse(m: &[[f64; 3]; 3]) -> [[f64; 3]; 3] {
+    let columns = [0, 1, 2].map(|j| solved(m, [0, 1, 2].map(|i| if i == j { 1.0 } else { 0.0 })));
+    [0, 1, 2].map(|i| [0, 1, 2].map(|j| columns[j][i]))
 }
 
 /// Returns L*a*b* with the Hunt effect: colours weigh more at higher luminance.
@@ -129,11 +136,21 @@ pub struct Prepared {
 impl Prepared {
     pub fn new(picture: &Picture) -> Self {
         let width = picture.width;
-        let all: Vec<[f64; 3]> = picture.rgb.iter().map(|c| opponent(*c)).collect();
+        // Neighbours often have the same colour.
+        let mut last = ([f64::NAN; 3], [0.0; 3]);
+        let light = |coded: f64| linear(coded.clamp(0.0, 1.0));
+        let mut of = |coded: [f64; 3]| {
+            if coded != last.0 {
+                last = (coded, opponent(coded.map(light)));
+            }
+            last.1
+        };
+        let all: Vec<[f64; 3]> = picture.rgb.iter().map(|c| of(*c)).collect();
         let channel = |i: usize| all.iter().map(|c| c[i]).collect::<Vec<f64>>();
         let [y, cx, cz] = [0, 1, 2].map(|i| seen(&channel(i), width, SENSITIVITY[i]));
-        let colours =
-            (0..y.len()).map(|i| hunt_lab(from_opponent([y[i], cx[i], cz[i]]).map(|v| v.clamp(0.0, 1.0)))).collect();
+        let inverse = inverse(&XYZ);
+        let linear = |i: usize| from_opponent([y[i], cx[i], cz[i]], &inverse).map(|v| v.clamp(0.0, 1.0));
+        let colours = (0..y.len()).map(|i| hunt_lab(linear(i))).collect();
         let luma: Vec<f64> = all.iter().map(|c| (c[0] + 16.0) / 116.0).collect();
         let [edges, points] = features(&luma, width);
         Self { width, colours, edges, points }
@@ -155,6 +172,10 @@ impl Prepared {
         let knee = PC * most;
         (0..a.colours.len())
             .map(|i| {
+                let is_same = |a: &[f64], b: &[f64]| a[i] == b[i];
+                if a.colours[i] == b.colours[i] && is_same(&a.edges, &b.edges) && is_same(&a.points, &b.points) {
+                    return 0.0;
+                }
                 let colour = hyab(a.colours[i], b.colours[i]).powf(QC);
                 let colour =
                     if colour < knee { PT / knee * colour } else { PT + (colour - knee) / (most - knee) * (1.0 - PT) };

@@ -35,19 +35,29 @@ pub fn psnr(picture: &Picture, reference: &Picture) -> f64 {
 /// Filters a field along its rows and columns; the field is extended by its edge.
 pub(super) fn separable(field: &[f64], width: usize, across: &[f64], up: &[f64]) -> Vec<f64> {
     let height = field.len() / width;
-    let (rx, ry) = ((across.len() / 2) as isize, (up.len() / 2) as isize);
-    let within = |at: usize, by: isize, n: usize| (at as isize + by).clamp(0, n as isize - 1) as usize;
+    let (rx, ry) = (across.len() / 2, up.len() / 2);
     let mut rows = vec![0.0; field.len()];
-    for (i, out) in rows.iter_mut().enumerate() {
-        let (x, y) = (i % width, i / width);
-        *out = (-rx..=rx).map(|d| across[(d + rx) as usize] * field[y * width + within(x, d, width)]).sum();
+    let mut padded = vec![0.0; width + 2 * rx];
+    for (row, out) in field.chunks_exact(width).zip(rows.chunks_exact_mut(width)) {
+        padded[..rx].fill(row[0]);
+        padded[rx..rx + width].copy_from_slice(row);
+        padded[rx + width..].fill(row[width - 1]);
+        for (weight, from) in across.iter().zip(0..) {
+            add_scaled(out, &padded[from..from + width], *weight);
+        }
     }
     let mut both = vec![0.0; field.len()];
-    for (i, out) in both.iter_mut().enumerate() {
-        let (x, y) = (i % width, i / width);
-        *out = (-ry..=ry).map(|d| up[(d + ry) as usize] * rows[within(y, d, height) * width + x]).sum();
+    for (y, out) in both.chunks_exact_mut(width).enumerate() {
+        for (weight, by) in up.iter().zip(0..) {
+            let from = (y + by).saturating_sub(ry).min(height - 1) * width;
+            add_scaled(out, &rows[from..from + width], *weight);
+        }
     }
     both
+}
+
+fn add_scaled(sums: &mut [f64], values: &[f64], weight: f64) {
+    sums.iter_mut().zip(values).for_each(|(sum, value)| *sum += weight * value);
 }
 
 /// Mean structural similarity of luma over all windows of 11 x 11 that lie inside, weighted by a Gaussian of sigma 1.5.

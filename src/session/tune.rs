@@ -10,15 +10,16 @@ use eddy_background::{Background, Control, Status, Wake};
 use eddy_engine::CameraFrame;
 use eddy_gpu::Gpu;
 use eddy_media as media;
-use eddy_playback::{run::Run, script::ScriptedInputs};
+use eddy_playback::{prices, run::Run, script::ScriptedInputs};
 use eddy_project::{CustomUniformValue, Project};
 use eddy_tune::{Bound, Found, Progress, Request, Scene, Target, Tuning, applied, default_frames, tune};
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
 /// Frames per second of the frames that are compared.
 const FPS: f64 = 60.0;
-/// Knobs that are tried at once.
+/// Knobs that are tried at once, of those that are found.
 const MOST_KNOBS: usize = 6;
+const MOST_FOUND: usize = 16;
 
 /// The aim of a search in the window.
 #[derive(Clone, Debug, PartialEq)]
@@ -57,6 +58,7 @@ pub(super) struct TuneJob {
     project: Project,
     revision: u64,
     media_dir: Option<PathBuf>,
+    cache_dir: Option<PathBuf>,
     size: (u32, u32),
     options: TuneOptions,
 }
@@ -91,19 +93,19 @@ impl ProjectTuning {
 }
 
 fn work(job: TuneJob, control: &Control<Progress>) -> Result<Arc<TuneOutcome>, String> {
-    let TuneJob { gpu, project, revision, media_dir, size, options } = job;
+    let TuneJob { gpu, project, revision, media_dir, cache_dir, size, options } = job;
     let bound = Bound::parse(&options.bound)?;
     let gpu = gpu.for_background();
     let mut found = Found::new(&project);
     // Sizes and formats are edits of passes, which are not applied from here.
     found.knobs.retain(|knob| matches!(knob.target, Target::Number { .. } | Target::Uniform));
-    found.keep_most(MOST_KNOBS, |_| false);
+    found.keep_most(MOST_FOUND, |_| false);
     if found.knobs.is_empty() {
         return Err("this project has no knob: no constant, macro or slider bounds a loop".into());
     }
     let (media, _) = media::gather(&project, media_dir.as_deref());
     let (at, held_out) = default_frames(!project.stateful_passes().is_empty(), None);
-    let scene = Scene { project, media, inputs: ScriptedInputs::new(FPS), size, at, held_out };
+    let scene = Scene { project, media, inputs: ScriptedInputs::new(FPS), size, at, held_out, may_thin: true };
     let request = Request {
         scene,
         knobs: found.knobs,
@@ -112,6 +114,8 @@ fn work(job: TuneJob, control: &Control<Progress>) -> Result<Arc<TuneOutcome>, S
         against_present: options.against_present,
         limit: Duration::from_secs(options.seconds.max(1)),
         earlier: Vec::new(),
+        most_knobs: Some(MOST_KNOBS),
+        prices: prices::kept_or_usual(&gpu, cache_dir.as_deref()),
         keeps_pictures: true,
         is_exhaustive: false,
     };
@@ -165,6 +169,7 @@ impl OpenProject {
                 project,
                 revision: self.documents.revision(),
                 media_dir: self.host.options.media_dir.clone(),
+                cache_dir: self.host.options.cache_dir.clone(),
                 size: self.engine.size(),
                 options,
             }),

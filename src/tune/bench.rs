@@ -2,21 +2,29 @@
 
 use crate::{
     knob::{Knob, Target, applied},
-    metric::{Metric, mean_picture},
+    metric::Metric,
+    savings::Counts,
 };
-use eddy_engine::{BuildError, BuildOptions, Builder, CostClock, Engine, EngineError, FrameInputs, Pixels};
+use eddy_engine::{
+    BuildError, BuildOptions, Builder, CostClock, DrawFor, Engine, EngineError, FrameInputs, Pixels, counts::Prices,
+};
 use eddy_gpu::Gpu;
 use eddy_media::MediaSet;
 use eddy_playback::{assertion::Conditions, comparing::first_error, median, offline, script::ScriptedInputs};
 use eddy_project::Project;
 use std::time::Instant;
 
-/// The time between two seeds of noise in a frame, in seconds: nothing moves in it.
-const SEED_SECS: f64 = 1e-3;
+/// The time between two seeds of noise in a frame, in seconds: nothing moves in it, and hashes of the time change. A tenth
+/// of it is still above the resolution of 32 bits after 20 seconds.
+const SEED_SECS: f64 = 2e-5;
 /// Frames that are timed of each setting and of the present one.
 const TIMED: usize = 3;
-/// A frame that takes longer is timed once: its time varies less, and there is less of it to spend.
-const SLOW_MILLIS: f64 = 300.0;
+/// A frame that takes longer is timed as it is drawn for its picture: its time varies less, and there is less of it to spend.
+const SLOW_MILLIS: f64 = 120.0;
+/// Frames that are drawn to learn about how long one takes.
+const PROBED: u32 = 4;
+/// Passes that take less of a frame are not counted.
+const LEAST_PART: f64 = 0.03;
 
 /// The project, its inputs and the frames that are drawn.
 #[derive(Clone)]
@@ -27,8 +35,17 @@ pub struct Scene {
     pub size: (u32, u32),
     /// The frames whose pictures are compared, ascending.
     pub at: Vec<u32>,
-    /// Frames that are drawn to check a result, which the search has not seen.
+    /// Frames that are drawn to check a result, which the search has not seen, ascending.
     pub held_out: Vec<u32>,
+    /// Fewer frames, and earlier ones, may be drawn of a program that takes long.
+    pub may_thin: bool,
+}
+
+impl Scene {
+    /// Returns whether the frames may be drawn at a smaller size: the inputs have no place on the canvas.
+    pub(crate) fn is_free_of_size(&self) -> bool {
+        self.inputs.recorded_frames().is_none() && self.inputs.script().is_some_and(|script| script.mouse.is_empty())
+    }
 }
 
 /// The pictures and the time of a setting.
@@ -40,17 +57,31 @@ pub(crate) struct Shots {
     pub millis: f64,
 }
 
-/// The engines of a search.
+/// The reason why a setting has no pictures.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Refusal {
+    /// The author's error: this value does not compile.
+    Compile(String),
+    /// There was no time.
+    Time,
+}
+
+/// The engines of a search at one size.
 pub(crate) struct Bench<'s> {
     scene: &'s Scene,
     knobs: &'s [Knob],
     metric: &'s Metric,
     gpu: Gpu,
     builder: Builder,
+    pub size: (u32, u32),
+    /// Nothing is drawn after this.
+    pub deadline: Instant,
     /// The setting that all others are timed beside.
     present: Option<Running>,
     /// The times of the present setting so far.
     present_millis: Vec<f64>,
+    /// The frames and seeds of the present setting, with the time of each draw.
+    present_draws: Option<(Vec<u32>, u32, Vec<f64>)>,
     pub has_state: bool,
     /// Settings that were compiled, and the seconds that took.
     pub compiles: (u32, f64),
@@ -65,7 +96,12 @@ struct Running {
 }
 
 impl<'s> Bench<'s> {
-    pub(crate) fn new(gpu: &Gpu, scene: &'s Scene, knobs: &'s [Knob], metric: &'s Metric) -> Self {
+    pub(crate) fn new(
+        gpu: &Gpu,
+        (scene, knobs, metric): (&'s Scene, &'s [Knob], &'s Metric),
+        size: (u32, u32),
+        deadline: Instant,
+    ) -> Self {
         let has_state = !scene.project.stateful_passes().is_empty();
         Self {
             scene,
@@ -73,8 +109,11 @@ impl<'s> Bench<'s> {
             metric,
             gpu: gpu.clone(),
             builder: Builder::new(gpu.clone()),
+            size,
+            deadline,
             present: None,
             present_millis: Vec::new(),
+            present_draws: None,
             has_state,
             compiles: (0, 0.0),
         }
@@ -85,8 +124,17 @@ impl<'s> Bench<'s> {
         if self.gpu.has_timestamps { CostClock::Timestamps } else { CostClock::Waited }
     }
 
-    /// Compiles a setting. The inner error is the author's: this value does not compile.
-    fn open(&mut self, values: &[f64]) -> Result<Result<Running, String>, EngineError> {
+    /// Returns milliseconds per frame of the present setting; NaN if it was not timed.
+    pub(crate) fn present_millis(&self) -> f64 {
+        median(self.present_millis.clone()).unwrap_or(f64::NAN)
+    }
+
+    fn is_late(&self) -> bool {
+        Instant::now() >= self.deadline
+    }
+
+    /// Compiles a setting.
+    fn open(&mut self, values: &[f64]) -> Result<Result<Running, Refusal>, EngineError> {
         let (project, _) = applied(&self.scene.project, self.knobs, values);
         let (pass, _) = self.metric.reads();
         // Passes that do not change are drawn in each frame: they are timed.
@@ -97,9 +145,9 @@ impl<'s> Bench<'s> {
         let built = match built {
             Ok(built) => built,
             Err(BuildError::Engine(error)) => return Err(error),
-            Err(error) => return Ok(Err(first_error(&error))),
+            Err(error) => return Ok(Err(Refusal::Compile(first_error(&error)))),
         };
-        let (width, height) = self.scene.size;
+        let (width, height) = self.size;
         let mut engine = Engine::new(self.gpu.clone(), width, height)?;
         engine.set_program(built.program)?;
         engine.set_custom_uniforms(&project.custom_uniform_values);
@@ -108,7 +156,8 @@ impl<'s> Bench<'s> {
     }
 
     /// Opens the setting that all others are timed beside.
-    pub(crate) fn open_present(&mut self, values: &[f64]) -> Result<Result<(), String>, EngineError> {
+    pub(crate) fn open_present(&mut self, values: &[f64]) -> Result<Result<(), Refusal>, EngineError> {
+        (self.present_millis, self.present_draws) = (Vec::new(), None);
         Ok(match self.open(values)? {
             Ok(running) => {
                 self.present = Some(running);
@@ -118,56 +167,143 @@ impl<'s> Bench<'s> {
         })
     }
 
-    /// Draws the frames `at` of a setting, each with as many `seeds`, and times it. The inner error is the author's.
+    /// Returns milliseconds per frame of the present setting, which starts again.
+    pub(crate) fn probe(&mut self) -> Result<f64, EngineError> {
+        let Some(present) = &mut self.present else { return Ok(f64::NAN) };
+        let mut millis = f64::NAN;
+        for _ in 0..PROBED {
+            millis = present.timed(self.knobs, self.scene)?;
+        }
+        Ok(millis)
+    }
+
+    /// Changes the size of all pictures.
+    pub(crate) fn resize(&mut self, size: (u32, u32)) -> Result<(), EngineError> {
+        self.size = size;
+        match &mut self.present {
+            Some(present) => present.engine.resize(size.0, size.1),
+            None => Ok(()),
+        }
+    }
+
+    /// Counts what the passes of the present setting executed in its newest frame: those that take a part of the time,
+    /// and can be counted. Returns the milliseconds of the frame, too.
+    pub(crate) fn counts(&mut self, prices: &Prices) -> Result<(Counts, f64), EngineError> {
+        let (mut counts, mut all) = (Counts::default(), 0.0);
+        let deadline = self.deadline;
+        let Some(present) = &mut self.present else { return Ok((counts, f64::NAN)) };
+        let times = present.engine.pass_times().unwrap_or_default();
+        let frame: f64 = times.iter().map(|time| time.gpu_millis).sum();
+        let project = &self.scene.project;
+        for pass in project.passes.iter().filter(|pass| pass.id.is_picture()) {
+            let stamped = times.iter().find(|time| time.pass == pass.id).map(|time| time.gpu_millis);
+            let stamped = stamped.filter(|_| frame > 0.0);
+            all += stamped.unwrap_or(0.0);
+            if Instant::now() >= deadline || stamped.is_some_and(|millis| millis < LEAST_PART * frame) {
+                continue;
+            }
+            let counted = present
+                .engine
+                .counting(project, &pass.id)
+                .and_then(|program| Ok(present.engine.count(&program, prices, &mut || Instant::now() >= deadline)?));
+            match counted {
+                Ok(counted) => {
+                    let millis = stamped.unwrap_or(counted.predicted_millis());
+                    all += if stamped.is_some() { 0.0 } else { millis };
+                    counts.add(counted, millis);
+                }
+                Err(BuildError::Engine(error @ EngineError::Gpu(_))) => return Err(error),
+                // Passes that draw meshes, for example.
+                Err(_) => {}
+            }
+        }
+        Ok((counts, all))
+    }
+
+    /// Draws the frames `at` of a setting, each with as many `seeds`, and times it.
     pub(crate) fn draw(
         &mut self,
         values: &[f64],
         (at, seeds): (&[u32], u32),
         is_timed: bool,
-    ) -> Result<Result<Shots, String>, EngineError> {
+    ) -> Result<Result<Shots, Refusal>, EngineError> {
+        if self.is_late() {
+            return Ok(Err(Refusal::Time));
+        }
         let mut running = match self.open(values)? {
             Ok(running) => running,
             Err(why) => return Ok(Err(why)),
         };
         let (pass, target) = self.metric.reads();
+        let is_present = self.present.as_ref().is_some_and(|present| present.values == values);
         let (mut pictures, mut millis) = (Vec::new(), Vec::new());
         let mut frame = 0;
         for &wanted in at {
-            while frame < wanted {
-                match self.has_state {
-                    true => drop(running.next(self.knobs)?),
-                    false => drop(running.next_inputs(self.knobs)?),
+            match self.has_state {
+                true => {
+                    while frame < wanted {
+                        if self.is_late() {
+                            return Ok(Err(Refusal::Time));
+                        }
+                        running.advance(self.knobs)?;
+                        frame += 1;
+                    }
                 }
-                frame += 1;
+                false => {
+                    while frame < wanted {
+                        running.next_inputs(self.knobs)?;
+                        frame += 1;
+                    }
+                }
             }
             let inputs = running.next_inputs(self.knobs)?;
             frame += 1;
             for seed in 0..seeds {
+                if self.is_late() {
+                    return Ok(Err(Refusal::Time));
+                }
                 let mut inputs = inputs.clone();
                 if seed > 0 {
                     inputs.frame = inputs.frame.saturating_add(seed as i32);
                     inputs.time_secs += f64::from(seed) * SEED_SECS;
                 }
-                millis.push(running.draw(&inputs)?);
+                let mut once = running.draw(&inputs)?;
+                // The first draw warms up: drivers compile for the machine, caches fill.
+                if millis.is_empty() && !self.has_state && is_timed {
+                    once = running.draw(&inputs)?;
+                }
+                millis.push(once);
                 pictures.push(running.engine.read_target(&pass, target)?);
             }
         }
-        // The first draw warms up: drivers compile for the machine, caches fill.
-        if millis.len() > 1 {
-            millis.remove(0);
+        let own = median(millis.clone()).unwrap_or(f64::NAN);
+        let ratio = if is_timed { self.ratio(&mut running, (at, seeds), &millis)? } else { f64::NAN };
+        if is_timed && is_present {
+            self.present_draws = Some((at.to_vec(), seeds, millis));
+            self.present_millis.push(own);
         }
-        let ratio = if is_timed { self.ratio(&mut running)? } else { f64::NAN };
-        let present = median(self.present_millis.clone()).unwrap_or(f64::NAN);
-        let own = median(millis).unwrap_or(f64::NAN);
+        let present = self.present_millis();
         Ok(Ok(Shots { pictures, millis: if ratio.is_finite() { ratio * present } else { own } }))
     }
 
-    /// Draws frames of a setting and of the present one alternately, and returns the median ratio of their times.
-    fn ratio(&mut self, running: &mut Running) -> Result<f64, EngineError> {
+    /// Returns the ratio of a setting's time to that of the present one. Slow frames are compared draw by draw; others
+    /// are drawn alternately.
+    fn ratio(&mut self, running: &mut Running, (at, seeds): (&[u32], u32), millis: &[f64]) -> Result<f64, EngineError> {
+        let is_slow = self.present_millis.last().is_some_and(|millis| *millis > SLOW_MILLIS);
+        if is_slow
+            && let Some((known_at, known_seeds, known)) = &self.present_draws
+            && (&known_at[..], *known_seeds) == (at, seeds)
+        {
+            let ratios = millis.iter().zip(known).map(|(own, present)| own / present).collect();
+            return Ok(median(ratios).unwrap_or(f64::NAN));
+        }
+        let deadline = self.deadline;
         let Some(present) = &mut self.present else { return Ok(f64::NAN) };
         let mut ratios = Vec::new();
-        let is_slow = self.present_millis.last().is_some_and(|millis| *millis > SLOW_MILLIS);
         for turn in 0..if is_slow { 2 } else { TIMED + 1 } {
+            if Instant::now() >= deadline {
+                break;
+            }
             let (a, b) = match turn % 2 {
                 0 => {
                     let a = running.timed(self.knobs, self.scene)?;
@@ -186,15 +322,16 @@ impl<'s> Bench<'s> {
         Ok(median(ratios).unwrap_or(f64::NAN))
     }
 
-    /// Times settings in alternating turns, and returns the median milliseconds per frame of each. Settings that do not
-    /// compile are infinite.
-    pub(crate) fn interleaved(&mut self, settings: &[Vec<f64>], turns: u32) -> Result<Vec<f64>, EngineError> {
+    /// Times settings in at most as many alternating `turns` as there is time for. Returns the milliseconds per frame of
+    /// each in each turn: none without time, or if it does not compile.
+    pub(crate) fn interleaved(&mut self, settings: &[Vec<f64>], turns: u32) -> Result<Vec<Vec<f64>>, EngineError> {
         let mut open = Vec::new();
         for values in settings {
             open.push(self.open(values)?.ok());
         }
         let mut times = vec![Vec::new(); settings.len()];
         for turn in 0..=turns {
+            let began = Instant::now();
             // Each goes first equally often.
             let count = open.len();
             for at in (0..count).map(|at| (at + turn as usize) % count) {
@@ -205,8 +342,11 @@ impl<'s> Bench<'s> {
                     }
                 }
             }
+            if Instant::now() + began.elapsed() > self.deadline {
+                break;
+            }
         }
-        Ok(times.into_iter().map(|times| median(times).unwrap_or(f64::INFINITY)).collect())
+        Ok(times)
     }
 
     /// Returns the conditions of claims.
@@ -242,6 +382,14 @@ impl Running {
         self.draw(&inputs)
     }
 
+    /// Draws what later frames depend on.
+    fn advance(&mut self, knobs: &[Knob]) -> Result<(), EngineError> {
+        let inputs = self.next_inputs(knobs)?;
+        self.engine.draw_for(&inputs, DrawFor::Advance)?;
+        self.engine.gpu().wait()?;
+        Ok(())
+    }
+
     /// Draws a frame for its time. A program without state shows the first of the compared frames, so that all settings
     /// are timed at one moment.
     fn timed(&mut self, knobs: &[Knob], scene: &Scene) -> Result<f64, EngineError> {
@@ -268,12 +416,5 @@ impl Running {
         let stamped = self.has_stamps.then(|| self.engine.pass_times()).flatten();
         let sum = stamped.map(|times| times.iter().map(|time| time.gpu_millis).sum::<f64>());
         Ok(sum.filter(|millis| *millis > 0.0).unwrap_or(waited))
-    }
-}
-
-impl Shots {
-    /// Returns the mean over the seeds of each frame.
-    pub(crate) fn means(&self, seeds: u32) -> Vec<Pixels> {
-        self.pictures.chunks(seeds.max(1) as usize).filter_map(mean_picture).collect()
     }
 }

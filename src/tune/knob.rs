@@ -1,6 +1,9 @@
 //! A knob: a number or setting of a project that changes what a frame costs, and its values.
 
-use crate::search::{Ladder, rounded};
+use crate::{
+    savings::Place,
+    search::{Ladder, rounded},
+};
 use eddy_diag::{Edit, Fix, Span};
 use eddy_glsl::knobs::NumberType;
 use eddy_project::{CustomUniformType, CustomUniformValue, Filter, PassName, PassSize, Project, TexelFormat};
@@ -60,6 +63,8 @@ pub struct Knob {
     pub column: Option<usize>,
     /// The reason why it is a knob: a sentence.
     pub why: String,
+    /// Where it decides how often code runs.
+    pub places: Vec<Place>,
     /// The values that are tried, in ascending order.
     pub ladder: Ladder,
     /// The values up to which it may be made more exact than it is; `None`: it stays at most as it is.

@@ -22,7 +22,8 @@ pub struct Effect {
 pub struct Proposal {
     /// With the time of the last measurement, interleaved with the present setting.
     pub point: Point,
-    /// The worst error, on frames that the search has not seen as well.
+    /// The worst error of the frames that were compared at the requested size: those of the search, and those of the
+    /// others that are worst in small pictures.
     pub checked_error: f64,
     /// The time of the present setting in that measurement.
     pub present_millis: f64,
@@ -44,15 +45,19 @@ pub struct Tuning {
     /// `timestamps` of the device, or `waited`.
     pub clock: String,
     pub size: (u32, u32),
+    /// The size of smaller pictures that the search began with, if any: errors of single values are of these.
+    pub screened: Option<(u32, u32)>,
     /// The frames that were compared.
     pub frames: Vec<u32>,
-    /// Frames on which the proposal was checked besides.
+    /// Frames on which the proposal was checked besides, of the requested or a smaller size.
     pub held_out: usize,
     pub metric: String,
     pub bound: String,
     pub limit: f64,
     pub budget: Option<f64>,
     pub knobs: Vec<Knob>,
+    /// For each knob the part of the time that its loops take, by what the pixels execute; `None` if that is not known.
+    pub shares: Vec<Option<f64>>,
     /// For each knob.
     pub convergence: Vec<Convergence>,
     /// For each knob the values that were measured alone.
@@ -139,7 +144,10 @@ pub fn default_frames(has_state: bool, recorded: Option<u32>) -> (Vec<u32>, Vec<
             };
             (at(&[0.2, 0.45, 0.7, 0.95]), at(&[0.1, 0.35, 0.6, 0.85, 1.0]))
         }
-        None if has_state => (vec![8, 24, 60], vec![16, 40, 90]),
-        None => (vec![20, 190, 430, 880], vec![75, 310, 600, 1200]),
+        None if has_state => (vec![8, 24, 60], vec![4, 14, 19, 30, 37, 45, 52, 70, 80, 90, 104, 120]),
+        None => (
+            vec![20, 190, 430, 880],
+            vec![5, 75, 120, 160, 240, 310, 365, 480, 540, 600, 665, 730, 790, 850, 940, 1000, 1080, 1140, 1200],
+        ),
     }
 }

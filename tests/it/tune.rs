@@ -25,7 +25,7 @@ void mainImage(out vec4 color, in vec2 at) {
 ";
 
 fn tune(bench: &Bench, more: &[&str]) -> (Option<i32>, Value, String) {
-    let common = ["tune", "p", "--json", "--size", "64x36", "--within", "20", "--at", "3,40"];
+    let common = ["tune", "p", "--json", "--size", "64x36", "--time", "20", "--at", "3,40"];
     let output = bench.command().args(common).args(more).output().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
     let line = serde_json::from_str(text.lines().next().unwrap_or("null")).unwrap_or(Value::Null);
@@ -49,6 +49,9 @@ fn a_cheaper_setting_within_the_bound_is_found_and_written_only_if_asked() {
     let steps = proposal["values"]["STEPS"].as_f64().unwrap();
     assert!((2.0..=64.0).contains(&steps), "{proposal}");
     assert!(!result["device"].as_str().unwrap().is_empty());
+    // By what the pixels execute, the steps are nearly all of the time.
+    assert_eq!(result["convergence"][0]["knob"], "STEPS");
+    assert!(result["convergence"][0]["share"].as_f64().unwrap() > 0.8, "{}", result["convergence"]);
     assert_eq!(fs::read_to_string(&file).unwrap(), PROGRAM, "nothing is written unasked");
     let tuned = fs::read_to_string(bench.path("out/project/image.glsl")).unwrap();
     assert!(tuned.contains(&format!("#define STEPS {steps}\n")), "{tuned}");
@@ -87,4 +90,63 @@ fn knobs_are_listed_and_mistakes_say_how_to_fix_them() {
         let text = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(output.status.code() == Some(2) && text.contains(says), "{arguments:?}: {text}");
     }
+}
+
+/// Returns a text with other values of its knobs.
+fn with_values(text: &str, knobs: &Value, values: &Value) -> String {
+    let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+    for knob in knobs.as_array().unwrap() {
+        let value = values[knob["name"].as_str().unwrap()].as_f64().unwrap();
+        let number = knob["place"].as_str().unwrap().rsplit(':').next().unwrap();
+        let line = &mut lines[number.parse::<usize>().unwrap() - 1];
+        let start = knob["column"].as_u64().unwrap() as usize - 1;
+        let length = line[start..].find(|c: char| !c.is_ascii_digit() && c != '.').unwrap_or(line.len() - start);
+        let is_float = line[start..start + length].contains('.');
+        line.replace_range(start..start + length, &if is_float { format!("{value:?}") } else { format!("{value}") });
+    }
+    lines.join("\n")
+}
+
+/// Programs that the search was not made with (tests/tune): the proposal keeps the bound in frames that no search draws.
+#[test]
+fn proposals_keep_the_bound_in_other_frames() {
+    if gpu().is_none() {
+        return;
+    }
+    let bench = Bench::new();
+    for (name, least) in [("soft_shadow", 1.5), ("radial_blur", 1.2), ("voronoi", 1.5)] {
+        let source = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("tests/tune/{name}.glsl"));
+        let text = fs::read_to_string(source).unwrap();
+        fs::write(bench.path("p.glsl"), &text).unwrap();
+        let args = ["tune", "p.glsl", "--json", "--size", "64x36", "--time", "20", "--at", "20,430"];
+        let output = bench.command().args(args).output().unwrap();
+        let result: Value = serde_json::from_slice(&output.stdout).unwrap_or_else(|why| panic!("{name}: {why}"));
+        let proposal = &result["proposal"];
+        assert!(proposal["speed_up"].as_f64().unwrap() > least, "{name}: {proposal}");
+        for (file, values) in [("tuned.glsl", &proposal["values"]), ("exact.glsl", &result["reference"])] {
+            fs::write(bench.path(file), with_values(&text, &result["knobs"], values)).unwrap();
+        }
+        for frame in ["277", "1013"] {
+            let args = ["compare", "tuned.glsl", "exact.glsl", "--json", "--size", "64x36", "--repeats", "0"];
+            let output = bench.command().args(args).args(["--frame", frame]).output().unwrap();
+            let compared: Value = serde_json::from_slice(&output.stdout).unwrap();
+            assert!(compared["flip"].as_f64().unwrap() <= 0.02, "{name}, frame {frame}: {compared}");
+        }
+    }
+}
+
+#[test]
+fn a_search_ends_in_its_time_and_proposes_nothing_that_it_did_not_check() {
+    if gpu().is_none() {
+        return;
+    }
+    let bench = Bench::new();
+    fs::write(bench.path("p.glsl"), PROGRAM.replace("256", "20000")).unwrap();
+    let began = std::time::Instant::now();
+    let output =
+        bench.command().args(["tune", "p.glsl", "--json", "--size", "320x180", "--time", "0.5"]).output().unwrap();
+    let line: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert!(line["proposal"].is_null(), "{line}");
+    // A frame that is drawn already is completed.
+    assert!(began.elapsed().as_secs_f64() < 20.0, "{:?}", began.elapsed());
 }

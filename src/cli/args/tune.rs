@@ -37,10 +37,10 @@ pub(crate) struct TuneArgs {
     /// Frames to compare, as in 30,120-360x120 [default: a few that are far apart]
     #[arg(long, value_name = "FRAMES", value_parser = FrameList::parse)]
     pub at: Vec<FrameList>,
-    /// Time limit of the search in seconds
-    #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = super::values::seconds)]
-    pub within: Duration,
-    /// Measure every combination of the values that --list names, instead of searching; takes as long as --within allows
+    /// Time limit of the search in seconds. The best setting that was checked by then is proposed
+    #[arg(long, alias = "within", value_name = "SECONDS", default_value = "50", value_parser = super::values::seconds)]
+    pub time: Duration,
+    /// Measure every combination of the values that --list names, instead of searching; takes as long as --time allows
     #[arg(long)]
     pub all: bool,
     /// Start from the settings of an earlier result, a line of --json; they are measured again, as another device has other

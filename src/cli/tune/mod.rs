@@ -12,6 +12,7 @@ use super::{
 };
 use crate::{
     media,
+    playback::prices,
     project::{self, Project},
     tune::{self, Found, Kind, Knob, Progress, Request, Scene, Tuning, default_frames},
 };
@@ -26,6 +27,8 @@ use std::{
 
 /// Knobs that are tried unless some are named: each needs measurements of its own.
 const MOST_KNOBS: usize = 6;
+/// Knobs of which those are chosen, by what they can save.
+const MOST_FOUND: usize = 16;
 
 impl Run for TuneArgs {
     const OPENS_DEVICE: bool = true;
@@ -85,7 +88,7 @@ fn tuned(machine: &mut Machine, report: &mut Report, args: &TuneArgs) -> Result<
     let (at, held_out) = frames(&project, args)?;
     let inputs = args.run.inputs().map_err(|why| anyhow!(why))?;
     let gpu = machine.gpu()?;
-    let scene = Scene { project, media, inputs, size: args.run.canvas(), at, held_out };
+    let scene = Scene { project, media, inputs, size: args.run.canvas(), at, held_out, may_thin: args.at.is_empty() };
     let (mut earlier, mut note) = (Vec::new(), String::new());
     if let Some(path) = &args.from {
         let text = fs::read_to_string(path).with_context(|| format!("--from {}", path.display()))?;
@@ -111,8 +114,10 @@ fn tuned(machine: &mut Machine, report: &mut Report, args: &TuneArgs) -> Result<
         bound: args.error.clone(),
         budget: args.budget,
         against_present: args.against_present,
-        limit: args.within,
+        limit: args.time,
         earlier,
+        most_knobs: (args.knob.is_empty() && args.range.is_empty()).then_some(MOST_KNOBS),
+        prices: prices::kept_or_usual(&gpu, dirs::cache_dir().map(|dir| dir.join("eddy")).as_deref()),
         keeps_pictures: false,
         is_exhaustive: args.all,
     };
@@ -189,7 +194,8 @@ fn knobs(project: Project, args: &TuneArgs) -> Result<(Project, Found), RunError
         found.choose(&args.knob).map_err(|why| anyhow!("--knob {why}"))?;
     } else if !args.list {
         let ranged = |knob: &Knob| args.range.iter().any(|(name, _)| *name == knob.name);
-        found.keep_most(MOST_KNOBS, ranged);
+        // Where the user has chosen values, the counts do not choose knobs.
+        found.keep_most(if args.range.is_empty() { MOST_FOUND } else { MOST_KNOBS }, ranged);
     }
     Ok((project, found))
 }

@@ -56,6 +56,8 @@ struct JsonProposal {
 #[derive(Serialize)]
 struct JsonConvergence<'a> {
     knob: &'a str,
+    /// The part of the time that its loops take.
+    share: Option<f64>,
     #[serde(flatten)]
     convergence: &'a Convergence,
 }
@@ -72,6 +74,8 @@ pub(super) struct JsonResult<'a> {
     metric: &'a str,
     bound: &'a str,
     limit: f64,
+    /// Width and height of the pictures that the search began with.
+    screened: Option<(u32, u32)>,
     budget_ms: Option<f64>,
     noise: f64,
     seeds: u32,
@@ -115,11 +119,15 @@ pub(super) fn result<'a>(tuning: &'a Tuning, found: &Found) -> JsonResult<'a> {
         metric: &tuning.metric,
         bound: &tuning.bound,
         limit: tuning.limit,
+        screened: tuning.screened,
         budget_ms: tuning.budget,
         noise: tuning.noise,
         seeds: tuning.seeds,
         knobs: tuning.knobs.iter().map(JsonKnob::new).collect(),
-        convergence: names.map(|(knob, convergence)| JsonConvergence { knob: &knob.name, convergence }).collect(),
+        convergence: names
+            .zip(&tuning.shares)
+            .map(|((knob, convergence), share)| JsonConvergence { knob: &knob.name, share: *share, convergence })
+            .collect(),
         reference: named(&tuning.knobs, &tuning.reference),
         present: point(&tuning.present),
         proposal,
@@ -220,6 +228,12 @@ pub(super) fn words(project: &str, tuning: &Tuning, found: &Found) -> String {
         tuning.backend,
         tuning.driver
     );
+    if let Some((width, height)) = tuning.screened {
+        let _ = writeln!(
+            out,
+            "frames take long: {width}x{height} was searched first, and the errors of single values are of that size"
+        );
+    }
     if tuning.seeds > 1 {
         let _ = writeln!(
             out,

@@ -92,7 +92,7 @@ impl Prices {
     }
 
     /// Returns the nanoseconds of one run of a block in one lane.
-    pub(super) fn of_block(&self, block: &CountedBlock, filters: &[TextureFilter]) -> f64 {
+    pub fn of_block(&self, block: &CountedBlock, filters: &[TextureFilter]) -> f64 {
         operations(block).map(|(class, channel, count)| self.of(class, channel, count, filters)).sum()
     }
 }

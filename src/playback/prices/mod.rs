@@ -15,6 +15,12 @@ use eddy_engine::{BuildError, counts::Prices};
 use eddy_gpu::Gpu;
 use std::path::Path;
 
+/// Returns the prices of a device that are kept in a cache folder, or else usual ratios: for shares of a time.
+pub fn kept_or_usual(gpu: &Gpu, cache_dir: Option<&Path>) -> Prices {
+    let device = gpu.describe();
+    cache_dir.and_then(|dir| file::read(&file::path(dir, &device), &device)).unwrap_or_default()
+}
+
 /// Returns the prices of a device: those that are kept in a cache folder, or else measured now, which takes some
 /// seconds, and kept there. A folder that cannot be written is ignored: the next run measures again.
 pub fn of_device(gpu: &Gpu, cache_dir: Option<&Path>) -> Result<Prices, BuildError> {

@@ -5,11 +5,12 @@ mod tests;
 
 use crate::{
     knob::{Kind, Knob, Target, half},
+    savings::Place,
     search::Ladder,
 };
 use eddy_diag::{SourceMap, Span};
-use eddy_engine::Sources;
-use eddy_glsl::knobs::{Declared, Number, Role, RoleKind};
+use eddy_engine::{Sources, counts::Line};
+use eddy_glsl::knobs::{Declared, Number, NumberType, Role, RoleKind};
 use eddy_project::{CustomUniformType, Filter, Input, Origin, PassSize, Project};
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -68,7 +69,7 @@ impl Found {
 
     fn number(&mut self, project: &Project, texts: &SourceMap, number: Number, used: &mut BTreeMap<String, u32>) {
         if number.declared == Declared::Uniform {
-            self.uniform(project, texts, &number.name, number.roles.first().map(|role| sentence(texts, role)));
+            self.uniform(project, texts, &number.name, &number.roles);
             return;
         }
         let place = place(texts, number.span);
@@ -121,9 +122,11 @@ impl Found {
         }
         let mut knob = knob(name.clone(), &number, kind, role.grows, (place.clone(), why));
         knob.column = texts.line_column(number.span).map(|at| at.column);
+        knob.places = places(texts, &number.roles);
         let is_literal = number.declared == Declared::Literal;
         let reason = match () {
             () if number.value <= 0.0 => Some("it is not above 0"),
+            () if is_mathematical(&number) => Some("it is a mathematical constant"),
             () if is_literal && kind != Kind::Count => Some("it has no name"),
             () if is_literal && number.value < LEAST_LITERAL => {
                 Some("it has no name and is small: a part of the method")
@@ -137,7 +140,7 @@ impl Found {
     }
 
     /// Adds a slider, if it has one component.
-    fn uniform(&mut self, project: &Project, texts: &SourceMap, name: &str, why: Option<String>) {
+    fn uniform(&mut self, project: &Project, texts: &SourceMap, name: &str, roles: &[Role]) {
         let declared = project.custom_uniforms();
         let Some(uniform) = declared.get(name) else { return };
         if self.knobs.iter().any(|knob| knob.name == name) {
@@ -159,7 +162,8 @@ impl Found {
             grows: true,
             place,
             column: None,
-            why: why.unwrap_or_else(|| "its line is marked //@tune".into()),
+            why: roles.first().map_or_else(|| "its line is marked //@tune".into(), |role| sentence(texts, role)),
+            places: places(texts, roles),
             ladder: Ladder { values: vec![value], is_continuous: true, is_integer },
             finest: None,
         };
@@ -186,7 +190,7 @@ impl Found {
             let Some(text) = texts.get(uniform.span.source) else { continue };
             let line = text.text[uniform.span.start as usize..].lines().next().unwrap_or("");
             if line.contains("//@tune") || line.contains("// @tune") {
-                self.uniform(project, texts, &uniform.name, None);
+                self.uniform(project, texts, &uniform.name, &[]);
             }
         }
     }
@@ -214,6 +218,7 @@ impl Found {
             place,
             column: None,
             why,
+            places: Vec::new(),
             ladder: Ladder { values: values.to_vec(), is_continuous: false, is_integer: false },
             finest: None,
         };
@@ -339,12 +344,20 @@ fn knob(name: String, number: &Number, kind: Kind, grows: bool, (place, why): (S
         place,
         column: None,
         why,
+        places: Vec::new(),
         ladder: Ladder { values: vec![number.value], is_continuous: true, is_integer: false },
         finest: None,
     };
     knob.ladder.is_integer = knob.is_integer();
     knob.set_automatic_range();
     knob
+}
+
+/// Returns whether a number is a part of pi, or e, or the golden ratio or angle, written to three digits at least.
+fn is_mathematical(number: &Number) -> bool {
+    use std::f64::consts::{E, PI};
+    let parts = [PI / 4.0, PI / 3.0, PI / 2.0, PI, 2.0 * PI, E, 1.618_034, 0.618_034, 2.399_963];
+    number.ty == NumberType::Float && parts.iter().any(|part| (number.value / part - 1.0).abs() < 6e-4)
 }
 
 /// Knobs with a name come before those without, counts before tolerances, steps and distances.
@@ -363,6 +376,16 @@ fn place(texts: &SourceMap, span: Span) -> String {
     let name = texts.get(span.source).map_or("", |text| &*text.name);
     let line = texts.line_column(span).map_or(0, |at| at.line);
     format!("{name}:{line}")
+}
+
+/// Returns the places where the roles decide how often code runs.
+fn places(texts: &SourceMap, roles: &[Role]) -> Vec<Place> {
+    let place = |role: &Role| {
+        let number = u32::try_from(texts.line_column(role.at)?.line).ok()?;
+        let line = Line { source: role.at.source, number };
+        Some(Place { span: role.at, line, is_bound: role.kind == RoleKind::LoopBound })
+    };
+    roles.iter().filter(|role| role.is_work()).filter_map(place).collect()
 }
 
 fn sentence(texts: &SourceMap, role: &Role) -> String {

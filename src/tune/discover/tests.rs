@@ -51,6 +51,8 @@ fn refused_numbers_have_reasons() {
     assert!(
         reason(&format!("#define STEPS 20\nconst float PI = 3.14;\n{LOOP}"), "PI").contains("no loop depends on it")
     );
+    let turn = "#define TURN 6.2832\nvoid mainImage(out vec4 o, in vec2 p) { o = vec4(0); for (float t = 0.; t < TURN; t += .3) o += t; }";
+    assert!(reason(turn, "TURN").contains("mathematical"));
     let small = LOOP.replace("STEPS", "3");
     assert!(found(&small).knobs.is_empty() && found(&small).others[0].1.reason.contains("small"));
     let slider = format!("#iUniform vec2 STEPS = vec2(8.0) //@tune\n{}", LOOP.replace("STEPS", "int(STEPS.x)"));

@@ -78,6 +78,12 @@ pub trait Measure<E> {
 
     /// Returns whether there is time for another measurement.
     fn has_time(&self) -> bool;
+
+    /// Returns the least part of the base's time that a setting can take, by what is known without measuring it.
+    fn least_part(&self, values: &[f64]) -> f64 {
+        let _ = values;
+        0.0
+    }
 }
 
 /// The values of a knob that are tried, and the least ratio of two of them.
@@ -93,14 +99,18 @@ pub struct Ladder {
 /// Two values closer than this ratio are not told apart.
 const FINEST: f64 = 1.09;
 /// A proposal must promise a gain of this factor over the best.
-const GAIN: f64 = 0.985;
+const GAIN: f64 = 0.97;
+/// A changed knob has to promise this gain.
+const TIDY: f64 = 0.005;
 /// The most combinations that the model is asked for at once.
-const MOST_COMBINATIONS: usize = 30_000;
+const MOST_COMBINATIONS: usize = 10_000;
 
 /// The state of a search: what was measured, and what could not be drawn.
 #[derive(Debug, Default)]
 pub struct Search {
     pub points: Vec<Point>,
+    /// What was measured of smaller pictures, from which times and errors are predicted.
+    pub smaller: Vec<Point>,
     refused: HashSet<Vec<u64>>,
 }
 
@@ -109,6 +119,11 @@ fn key(values: &[f64]) -> Vec<u64> {
 }
 
 impl Search {
+    /// Returns a search that knows what was measured of smaller pictures.
+    pub fn after(smaller: Vec<Point>) -> Self {
+        Self { smaller, ..Self::default() }
+    }
+
     /// Adds a setting that was measured before the search.
     pub fn add(&mut self, point: Point) {
         if !self.points.iter().any(|other| other.values == point.values) {
@@ -133,16 +148,18 @@ impl Search {
         Ok(true)
     }
 
-    /// Measures the effect of each knob alone: from `base` down its ladder, while the error stays below `far`.
+    /// Measures the effect of each knob alone, in this order: from `base` down its ladder, while the error stays below
+    /// `far`. Values that save nothing are left out.
     pub fn one_at_a_time<E>(
         &mut self,
         subject: &mut dyn Measure<E>,
         base: &[f64],
         ladders: &[Ladder],
-        grows: &[bool],
+        (grows, order): (&[bool], &[usize]),
         far: f64,
     ) -> Result<(), E> {
-        for (knob, ladder) in ladders.iter().enumerate() {
+        for &knob in order {
+            let ladder = &ladders[knob];
             let mut cheaper: Vec<f64> = ladder
                 .values
                 .iter()
@@ -158,6 +175,9 @@ impl Search {
                 }
                 let mut values = base.to_vec();
                 values[knob] = value;
+                if subject.least_part(&values) > GAIN {
+                    continue;
+                }
                 self.try_one(subject, &values)?;
                 let is_far = self.points.iter().find(|p| p.values == values).is_none_or(|p| p.error > far);
                 if is_far {
@@ -179,9 +199,9 @@ impl Search {
         let mut ladders = ladders.to_vec();
         let mut octaves = 1.0f64;
         while subject.has_time() {
-            let Some(model) = Model::new(&self.points, base) else { return Ok(()) };
+            let Some(model) = Model::new(&self.points, &self.smaller, base) else { return Ok(()) };
             let best = goal.best(self.points.iter()).cloned();
-            match self.proposal(&model, &ladders, goal, best.as_ref()) {
+            match self.proposal(subject, &model, &ladders, goal, best.as_ref()) {
                 Some(values) => {
                     self.try_one(subject, &values)?;
                 }
@@ -216,7 +236,14 @@ impl Search {
     }
 
     /// Returns the setting that is to be measured next; `None` if none promises more than the best.
-    fn proposal(&self, model: &Model<'_>, ladders: &[Ladder], goal: Goal, best: Option<&Point>) -> Option<Vec<f64>> {
+    fn proposal<E>(
+        &self,
+        subject: &dyn Measure<E>,
+        model: &Model<'_>,
+        ladders: &[Ladder],
+        goal: Goal,
+        best: Option<&Point>,
+    ) -> Option<Vec<f64>> {
         let is_met = best.is_some_and(|best| goal.is_met_by(best));
         let least = best.map_or(f64::INFINITY, |best| match is_met {
             true => goal.objective(best.millis, best.error) * GAIN,
@@ -226,6 +253,7 @@ impl Search {
         let mut chosen: Option<(f64, Vec<f64>)> = None;
         for values in combinations(ladders, &around) {
             let (millis, error) = model.predict(&values);
+            let millis = millis.max(subject.least_part(&values) * model.base_millis());
             let fits = goal.is_met(millis, error);
             let worth = match (is_met, fits) {
                 (_, true) if is_met => goal.objective(millis, error),
@@ -234,6 +262,9 @@ impl Search {
                 (false, false) => goal.excess(millis, error),
                 _ => continue,
             };
+            // Of settings that promise as much, the one that changes less.
+            let changed = values.iter().zip(model.base()).filter(|(value, base)| value != base).count();
+            let worth = worth * (1.0 + TIDY * changed as f64);
             let is_better = worth < least && chosen.as_ref().is_none_or(|(other, _)| worth < *other);
             if is_better && !self.is_known(&values) {
                 chosen = Some((worth, values));
@@ -254,9 +285,9 @@ impl Search {
             if !subject.has_time() {
                 return Ok(());
             }
-            let Some(model) = Model::new(&self.points, base) else { return Ok(()) };
+            let Some(model) = Model::new(&self.points, &self.smaller, base) else { return Ok(()) };
             let best = Goal::Error(level).best(self.points.iter()).cloned();
-            if let Some(values) = self.proposal(&model, ladders, Goal::Error(level), best.as_ref()) {
+            if let Some(values) = self.proposal(subject, &model, ladders, Goal::Error(level), best.as_ref()) {
                 self.try_one(subject, &values)?;
             }
         }

@@ -1,4 +1,4 @@
-//! Predicts the time and the error of a setting from those that were measured.
+//! Predicts the time and the error of a setting from those that were measured, perhaps of smaller pictures.
 //!
 //! Time is a product: loops nest, and a share of the time that a knob does not change is in its own curve. Error is a sum:
 //! what two approximations change is mostly apart. Both are corrected by what nearby combinations were off (weights of a
@@ -15,6 +15,8 @@ const LEAST_ERROR: f64 = 1e-6;
 
 pub(super) struct Model<'p> {
     base: &'p Point,
+    /// The model of smaller pictures, with the logarithm of the ratio of the errors to those there.
+    smaller: Option<(Box<Model<'p>>, f64)>,
     /// For each knob the measured values, sorted, with the logarithm of the ratio of times and the increase of the error.
     curves: Vec<Vec<(f64, f64, f64)>>,
     /// The measured combinations in octaves, with the logarithms of measured over predicted.
@@ -26,8 +28,9 @@ fn octaves(values: &[f64]) -> Vec<f64> {
 }
 
 impl<'p> Model<'p> {
-    /// Returns `None` if the setting `base` was not measured.
-    pub(super) fn new(points: &'p [Point], base: &[f64]) -> Option<Self> {
+    /// Returns `None` if the setting `base` was not measured. `smaller` are the points of smaller pictures, if any.
+    pub(super) fn new(points: &'p [Point], smaller: &'p [Point], base: &[f64]) -> Option<Self> {
+        let smaller = if smaller.is_empty() { None } else { Some(Box::new(Model::new(smaller, &[], base)?)) };
         let base = points.iter().find(|p| p.values == base)?;
         let mut curves = vec![Vec::new(); base.values.len()];
         for point in points {
@@ -40,7 +43,18 @@ impl<'p> Model<'p> {
             curve.push((base.values[knob], 0.0, 0.0));
             curve.sort_by(|a, b| a.0.total_cmp(&b.0));
         }
-        let mut model = Self { base, curves, off: Vec::new() };
+        let smaller = smaller.map(|smaller| {
+            // Of settings that have an error at all.
+            let ratios: Vec<f64> = points
+                .iter()
+                .map(|point| (point.error, smaller.predict(&point.values).1))
+                .filter(|(error, predicted)| error.min(*predicted) > 1e-4)
+                .map(|(error, predicted)| (error / predicted).ln())
+                .collect();
+            let ratio = ratios.iter().sum::<f64>() / (ratios.len() as f64 + 0.3);
+            (smaller, ratio)
+        });
+        let mut model = Self { base, smaller, curves, off: Vec::new() };
         let off = |point: &Point| {
             let (millis, error) = model.plain(&point.values);
             let error = (point.error.max(LEAST_ERROR) / error.max(LEAST_ERROR)).ln();
@@ -54,8 +68,16 @@ impl<'p> Model<'p> {
         &self.base.values
     }
 
+    pub(super) fn base_millis(&self) -> f64 {
+        self.base.millis
+    }
+
     /// Returns milliseconds and error without corrections.
     fn plain(&self, values: &[f64]) -> (f64, f64) {
+        if let Some((smaller, errors)) = &self.smaller {
+            let (millis, error) = smaller.predict(values);
+            return (millis * self.base.millis / smaller.base.millis, error * errors.exp());
+        }
         let (mut log, mut error) = (0.0, self.base.error);
         for (curve, value) in self.curves.iter().zip(values) {
             let (time, more) = interpolated(curve, *value);

@@ -38,7 +38,8 @@ fn search(program: impl Fn(&[f64]) -> Option<(f64, f64)>, tops: &[f64], goal: Go
     let mut search = Search::default();
     let base = subject.measure(tops).unwrap().unwrap();
     search.add(base);
-    search.one_at_a_time(&mut subject, tops, &ladders, &vec![true; tops.len()], 0.2).unwrap();
+    let order: Vec<usize> = (0..tops.len()).collect();
+    search.one_at_a_time(&mut subject, tops, &ladders, (&vec![true; tops.len()], &order), 0.2).unwrap();
     search.run(&mut subject, tops, &ladders, goal).unwrap();
     let best = goal.best(search.points.iter()).unwrap().clone();
     let mut all = vec![Vec::new()];
@@ -102,4 +103,52 @@ fn steps_are_refined_around_a_value_within_the_range() {
         Ladder { is_continuous: false, ..coarse.clone() }.refined(16.0, 0.5),
         Ladder { is_continuous: false, ..coarse }
     );
+}
+
+#[test]
+fn smaller_pictures_say_what_to_draw() {
+    // Errors of the size that counts are two thirds of those of small pictures, and times nine times as long.
+    let small = |v: &[f64]| Some((1.0 + 0.01 * v[0] * v[1] * v[1], 0.5 * (-v[0] / 12.0).exp() + 0.03 / (v[1] * v[1])));
+    let large = |v: &[f64]| small(v).map(|(millis, error)| (9.0 * millis, error / 1.5));
+    let (tops, goal) = ([128.0, 4.0], Goal::Error(0.02));
+    let ladders = [ladder(&[16.0, 32.0, 64.0, 128.0]), ladder(&[1.0, 2.0, 3.0, 4.0])];
+    let mut subject = Synthetic { program: small, calls: 0, most: 60 };
+    let mut first = Search::default();
+    first.add(subject.measure(&tops).unwrap().unwrap());
+    first.one_at_a_time(&mut subject, &tops, &ladders, (&[true; 2], &[0, 1]), 0.2).unwrap();
+    first.run(&mut subject, &tops, &ladders, goal).unwrap();
+    let mut subject = Synthetic { program: large, calls: 0, most: 60 };
+    let mut second = Search::after(first.points);
+    second.add(subject.measure(&tops).unwrap().unwrap());
+    second.run(&mut subject, &tops, &ladders, goal).unwrap();
+    let best = goal.best(second.points.iter()).unwrap();
+    let all = (1..=128).flat_map(|a| (1..=4).map(move |b| [f64::from(a), f64::from(b)]));
+    let all: Vec<Point> = all
+        .filter_map(|values| large(&values).map(|(millis, error)| Point { values: values.to_vec(), millis, error }))
+        .collect();
+    let truth = goal.best(all.iter()).unwrap();
+    assert!(best.error <= 0.02 && best.millis <= 1.1 * truth.millis, "{best:?} {truth:?}");
+    assert!(subject.calls <= 14, "{}", subject.calls);
+}
+
+#[test]
+fn settings_that_cannot_be_faster_are_not_measured() {
+    struct Bounded(usize);
+    impl Measure<()> for Bounded {
+        fn measure(&mut self, values: &[f64]) -> Result<Option<Point>, ()> {
+            self.0 += 1;
+            Ok(Some(Point { values: values.to_vec(), millis: 10.0, error: 0.0 }))
+        }
+        fn has_time(&self) -> bool {
+            true
+        }
+        // The second knob has no part in the time.
+        fn least_part(&self, values: &[f64]) -> f64 {
+            values[0] / 8.0
+        }
+    }
+    let ladders = [ladder(&[2.0, 4.0, 8.0]), ladder(&[2.0, 4.0, 8.0])];
+    let (mut search, mut subject) = (Search::default(), Bounded(0));
+    search.one_at_a_time(&mut subject, &[8.0, 8.0], &ladders, (&[true; 2], &[1, 0]), 1.0).unwrap();
+    assert_eq!((subject.0, search.points[0].values.clone()), (2, vec![4.0, 8.0]));
 }
