@@ -227,15 +227,15 @@ impl State {
                 self.brackets.push(is_control && token.text == "(");
                 self.questions.push(0);
             }
+            // One without its partner is left alone.
+            ")" | "]" if is_outside => {}
             ")" | "]" => {
+                let is_header = self.brackets.pop() == Some(true);
+                self.questions.pop();
                 // `while (…);` after `do` is no header, but its `;` ends the statement anyway.
-                if self.brackets.len() > self.blocks.last().map_or(0, |block| block.brackets) {
-                    let is_header = self.brackets.pop() == Some(true);
-                    self.questions.pop();
-                    if is_header {
-                        self.headers += 1;
-                        ends = true;
-                    }
+                if is_header {
+                    self.headers += 1;
+                    ends = true;
                 }
             }
             "?" => *self.questions.last_mut().expect("one is always open") += 1,

@@ -71,8 +71,8 @@ fn one(code: &str) -> (Kind, usize) {
     if code.starts_with("//") {
         return (Kind::Comment, logical_line(code));
     }
-    if code.starts_with("/*") {
-        return (Kind::Comment, code[2..].find("*/").map_or(code.len(), |end| end + 4));
+    if let Some(inside) = code.strip_prefix("/*") {
+        return (Kind::Comment, inside.find("*/").map_or(code.len(), |end| end + 4));
     }
     let bytes = code.as_bytes();
     let is_number = bytes[0].is_ascii_digit() || bytes[0] == b'.' && bytes.get(1).is_some_and(u8::is_ascii_digit);
