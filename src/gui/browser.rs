@@ -24,7 +24,7 @@ pub(super) struct Browser {
     opening: Vec<(Opened, Background<(), (), bool>)>,
 }
 
-/// What is being opened.
+/// A file that is being opened.
 enum Opened {
     Page(PathBuf),
     /// A file in its folder.

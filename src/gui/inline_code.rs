@@ -6,7 +6,7 @@ use egui::{
     text::{LayoutJob, TextWrapping},
 };
 
-/// How a message is set.
+/// The size and the colour of a message.
 #[derive(Clone)]
 pub(super) struct Inline<'a> {
     pub size: f32,

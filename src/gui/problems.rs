@@ -284,7 +284,7 @@ impl Row<'_> {
     }
 }
 
-/// The texts of a row, and where they begin.
+/// The texts of a row, and their places.
 struct RowLayout {
     /// The left edge of the message, from that of the row.
     x: f32,

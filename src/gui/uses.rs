@@ -14,7 +14,7 @@ const ROW: f32 = 21.0;
 
 pub(super) struct Uses {
     name: String,
-    /// What the places are: "reference" or "match".
+    /// The noun for the places: "reference" or "match".
     of: &'static str,
     places: Vec<Use>,
     selected: Option<usize>,

@@ -13,7 +13,7 @@ struct State {
     brackets: Vec<bool>,
     /// The number of `?` without their `:` in each of `brackets`, and outside of them.
     questions: Vec<usize>,
-    /// The control statements whose body, without braces, has not begun or ended: `if (…)`, `else`, `do`.
+    /// The control statements whose body, without braces, has not ended: `if (…)`, `else`, `do`.
     headers: usize,
     /// Those before the block that was closed last, which an `else` continues.
     closed_headers: usize,
@@ -34,7 +34,7 @@ struct Block {
     brackets: usize,
 }
 
-/// What the blanks before the next token depend on.
+/// The last token, on which the blanks before the next one depend.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Last {
     text: String,

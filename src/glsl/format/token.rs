@@ -12,7 +12,7 @@ pub(super) enum Kind {
     /// A line of the preprocessor, with its continuation lines, without the line break after it.
     Directive,
     Break,
-    /// Two or more lines of code of which a `\` joins each with the next: a token may begin in one and end in the next.
+    /// Two or more lines of code of which a `\` joins each with the next: a token may be in both.
     Joined,
 }
 

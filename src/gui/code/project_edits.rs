@@ -71,7 +71,7 @@ impl CodePanel {
         let steps: BTreeMap<Tab, u64> = tabs.iter().filter_map(step).collect();
         if steps.len() > 1 {
             self.joined_steps.push(steps);
-            // The texts of long sessions: nobody undoes so many.
+            // The memory of long sessions is bounded.
             let extra = self.joined_steps.len().saturating_sub(MAX_JOINED);
             self.joined_steps.drain(..extra);
         }
