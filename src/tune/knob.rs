@@ -63,7 +63,7 @@ pub struct Knob {
     pub column: Option<usize>,
     /// The reason why it is a knob: a sentence.
     pub why: String,
-    /// Where it decides how often code runs.
+    /// The places where it decides how often code runs.
     pub places: Vec<Place>,
     /// The values that are tried, in ascending order.
     pub ladder: Ladder,

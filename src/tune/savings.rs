@@ -1,4 +1,4 @@
-//! What a knob can save at most, by the counts of one draw.
+//! The most that a knob can save, by the counts of one draw.
 //!
 //! A loop that takes a part s of the time takes at least s r of it with r times the bound: the number of iterations with a
 //! lower bound is a concave function of the bound, and 0 at 0. So no setting takes less than 1 minus the sum of s (1 - r)
@@ -28,7 +28,7 @@ pub(crate) struct Counts {
     passes: Vec<(PassCounts, f64)>,
 }
 
-/// What one knob can save.
+/// The most that one knob can save.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Saving {
     /// The part of the time that its loops take, 0 to 1.

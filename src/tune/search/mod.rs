@@ -109,7 +109,7 @@ const MOST_COMBINATIONS: usize = 10_000;
 #[derive(Debug, Default)]
 pub struct Search {
     pub points: Vec<Point>,
-    /// What was measured of smaller pictures, from which times and errors are predicted.
+    /// Settings of smaller pictures, from which times and errors are predicted.
     pub smaller: Vec<Point>,
     refused: HashSet<Vec<u64>>,
 }

@@ -132,7 +132,8 @@ impl Tuner<'_> {
         std::mem::swap(&mut self.stage, &mut other);
         // The frames of the search say what the size makes of the error.
         let searched = other.at.clone();
-        let mut all: Vec<u32> = searched.iter().chain(&held_out).copied().collect();
+        // A simulation may differ later than at the frames that it can be drawn to at the requested size.
+        let mut all: Vec<u32> = searched.iter().chain(&held_out).chain(&self.request.scene.held_out).copied().collect();
         all.sort_unstable();
         all.dedup();
         let errors = self.scan(&point.values, &all, scanned);
@@ -150,6 +151,8 @@ impl Tuner<'_> {
         let per_frame = self.stage.bench.present_millis() / 1e3;
         let count =
             if self.stage.bench.has_state { WORST } else { WORST.min((seconds / 8.0 / per_frame) as usize).max(1) };
+        let last = held_out.last().copied().unwrap_or(u32::MAX);
+        order.retain(|(_, frame)| *frame <= last);
         let mut at: Vec<u32> = order.into_iter().take(count).map(|(_, frame)| frame).collect();
         at.sort_unstable();
         Ok(Some(Frames { at, predicted }))

@@ -104,7 +104,7 @@ struct Reference {
     mean: Option<Prepared>,
 }
 
-/// What is drawn at one size.
+/// The settings that are drawn at one size.
 struct Stage<'t> {
     bench: Bench<'t>,
     /// The frames that are compared.
