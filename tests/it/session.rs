@@ -333,6 +333,11 @@ fn a_failed_save_or_open_loses_nothing() {
     fs::remove_dir_all(stage.folder()).unwrap();
     fs::write(stage.folder(), "a file where the folder was").unwrap();
     stage.session.apply(FileCommand::Save);
+    let warnings = stage.notices(Level::Warning);
+    assert!(warnings.len() == 1 && warnings[0].contains("was moved or deleted"), "{:?}", stage.session.notices());
+    assert!(std::iter::from_fn(|| stage.session.take_request()).any(|r| matches!(r, Request::SaveAs { .. })));
+    // There is no folder to write to.
+    stage.session.apply(FileCommand::SaveAs(stage.folder()));
     assert_eq!(stage.notices(Level::Error).len(), 2, "{:?}", stage.session.notices());
     assert!(stage.session.is_dirty());
     assert_eq!(stage.session.text(&image_tab()), plain(0.4));

@@ -61,7 +61,8 @@ impl Home {
     /// without any of them is another one, such as the mount point of a drive that was unmounted.
     pub(super) fn is_there<'a>(&self, mut files: impl Iterator<Item = &'a Path>) -> bool {
         let is_same = self.identity.is_some() && identity(&self.path) == self.identity;
-        self.path.exists() && (is_same || !self.is_folder || files.any(Path::exists))
+        let is_kind = self.path.exists() && self.path.is_dir() == self.is_folder;
+        is_kind && (is_same || !self.is_folder || files.any(Path::exists))
     }
 
     /// Returns the new place of a project that was renamed, or that is in a folder that was renamed.
