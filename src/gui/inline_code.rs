@@ -40,8 +40,8 @@ impl Inline<'_> {
             ..TextFormat::default()
         };
         for (is_code, part) in parts(text) {
-            // Narrow blanks keep the ground away from the letters beside it.
-            let margin = if is_code && !job.is_empty() { 1.5 } else { 0.0 };
+            // Between code and the text beside it, for the ground.
+            let margin = if job.is_empty() { 0.0 } else { 2.5 };
             job.append(part, margin, if is_code { code.clone() } else { plain.clone() });
         }
     }

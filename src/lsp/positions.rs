@@ -81,10 +81,6 @@ impl<'t> Lines<'t> {
         Self { text, starts, encoding }
     }
 
-    pub(crate) fn text(&self) -> &'t str {
-        self.text
-    }
-
     /// Returns a line without its end.
     fn line(&self, line: usize) -> &'t str {
         let start = self.starts[line];

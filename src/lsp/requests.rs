@@ -109,6 +109,16 @@ fn query_document(
     work(QueriedText { program, places: Places::new(program, &workspace.documents, encoding), id })
 }
 
+/// Formats a document. The text is enough: it need not be analysed.
+fn format(workspace: &Workspace, encoding: Encoding, params: Value) -> Answer {
+    let DocumentParams { text_document } = read(params)?;
+    let Some(document) = workspace.documents.get(&path_of(&text_document.uri.0)) else { return Ok(Value::Null) };
+    let lines = Lines::new(&document.text, encoding);
+    let edits = eddy_glsl::format_edits(&document.text).into_iter();
+    let edit = |(range, new_text)| lsp::TextEdit { range: lines.range(range), new_text };
+    answer(edits.map(edit).collect::<Vec<_>>())
+}
+
 /// The answer to a request about a program that is being read: editors repeat it, or ask again after the next change.
 fn reading_error() -> lsp_server::ResponseError {
     error(ErrorCode::ContentModified, "the text is still being analysed: ask again")
@@ -171,12 +181,7 @@ pub(crate) fn request(
             let lines = asked.lines();
             answer(tokens::folds(asked.program, asked.id, &lines))
         }),
-        "textDocument/formatting" => about_document(params, workspace, &|mut asked| {
-            let lines = asked.lines();
-            let edits = eddy_glsl::format_edits(lines.text()).into_iter();
-            let edit = |(range, new_text)| lsp::TextEdit { range: lines.range(range), new_text };
-            answer(edits.map(edit).collect::<Vec<_>>())
-        }),
+        "textDocument/formatting" => format(workspace, encoding, params),
         "textDocument/semanticTokens/full" => about_document(params, workspace, &|mut asked| {
             let lines = asked.lines();
             answer(tokens::tokens(asked.program, asked.id, &lines, 0..u32::MAX))

@@ -159,6 +159,7 @@ impl OpenProject {
             ToolCommand::FindNonfinite(is_wanted) => self.nan_search.want(is_wanted),
             ToolCommand::Compare(against) => self.comparison.want(against),
             ToolCommand::Tune(options) => self.tuning.want(options),
+            ToolCommand::KeepBreakpoints(breakpoints) => self.trace.breakpoints = breakpoints,
             ToolCommand::Trace(at) => {
                 if at.is_some() {
                     self.pause();

@@ -90,7 +90,7 @@ pub use options::{DEFAULT_FRAME_LIMIT, SessionError, SessionOptions, frame_limit
 pub use panic_report::{PanicReport, folder as report_folder, home_as_tilde};
 pub use pass_history::PassStep;
 pub use playback::{Reach, ReplayView, TimeRange};
-pub use recent::RecentProject;
+pub use recent::{KeptBreakpoint, RecentProject};
 pub use recovery::{KEPT_DAYS, folder as recovery_folder, place_for_replaced};
 pub use sound::SoundView;
 pub use state::Session;

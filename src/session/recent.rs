@@ -35,9 +35,26 @@ pub struct RecentProject {
     /// Ratio of picture pixels to view pixels, if it was not the default.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<f32>,
+    /// The breakpoints of the debugger.
+    #[serde(default, rename = "breakpoint", skip_serializing_if = "Vec::is_empty")]
+    pub breakpoints: Vec<KeptBreakpoint>,
     /// It was open as a custom shader of Ghostty, which its text does not show.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub ghostty: bool,
+}
+
+/// A breakpoint of a project that was open before.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct KeptBreakpoint {
+    /// The title of its tab.
+    pub tab: String,
+    /// Counted from 1.
+    pub line: usize,
+    /// Empty for none.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub condition: String,
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub disabled: bool,
 }
 
 impl RecentProject {
@@ -98,14 +115,15 @@ impl Recent {
         Ok(known)
     }
 
-    /// Stores the time of a project.
-    pub(crate) fn left(&mut self, origin: &Origin, left: Left) -> Result<(), String> {
+    /// Stores the time of a project, and its breakpoints.
+    pub(crate) fn left(&mut self, origin: &Origin, left: Left, breakpoints: &[KeptBreakpoint]) -> Result<(), String> {
         let Some(path) = place(origin) else { return Ok(()) };
         self.change(|list| {
             if let Some(project) = list.iter_mut().find(|project| project.path == path) {
                 (project.time_secs, project.paused) = (left.time_secs, left.is_paused);
                 project.frame = Some(left.frame.max(0));
                 (project.size, project.scale) = (left.size, left.scale);
+                project.breakpoints = breakpoints.to_vec();
             }
         })
     }
@@ -185,13 +203,14 @@ mod tests {
         assert_eq!(first.opened(&a, Dialect::Shadertoy), Ok(None));
         let (mut second, _) = Recent::open(Some(&state));
         assert_eq!(second.opened(&b, Dialect::Shadertoy), Ok(None));
-        first
-            .left(&a, Left { time_secs: 12.5, frame: 750, is_paused: true, size: Some((1080, 1920)), scale: Some(0.5) })
-            .unwrap();
+        let left = Left { time_secs: 12.5, frame: 750, is_paused: true, size: Some((1080, 1920)), scale: Some(0.5) };
+        let breakpoint = KeptBreakpoint { tab: "Image".into(), line: 7, condition: "x > 1.0".into(), disabled: true };
+        first.left(&a, left, std::slice::from_ref(&breakpoint)).unwrap();
         assert_eq!(paths(&first), [path(&b), path(&a)]);
         let known = second.opened(&a, Dialect::Shadertoy).unwrap().unwrap();
         assert_eq!((known.time_secs, known.frame, known.paused), (12.5, Some(750), true));
         assert_eq!((known.size, known.scale), (Some((1080, 1920)), Some(0.5)));
+        assert_eq!(known.breakpoints, [breakpoint]);
         // As an earlier version wrote it.
         let file = state.join(NAME);
         let text = std::fs::read_to_string(&file).unwrap().replace("frame = 750\n", "");

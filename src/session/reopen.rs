@@ -58,7 +58,7 @@ impl Session {
             scale: Some(scale).filter(|scale| *scale != default_size.scale),
         };
         let origin = self.open.documents.current().origin.clone();
-        if let Err(why) = self.services.recent.left(&origin, left) {
+        if let Err(why) = self.services.recent.left(&origin, left, &self.open.trace.breakpoints) {
             log::warn!("{why}");
         }
         self.keep_run(is_paused);
@@ -138,7 +138,11 @@ impl Session {
 
     /// Restores the time of the project that has just been opened.
     pub(super) fn restore_run(&mut self) {
-        let Some(RecentProject { time_secs, frame, paused, size, scale, .. }) = self.record_recent() else { return };
+        let Some(RecentProject { time_secs, frame, paused, size, scale, breakpoints, .. }) = self.record_recent()
+        else {
+            return;
+        };
+        self.open.trace.breakpoints = breakpoints;
         self.open.restore_size(size, scale);
         let is_playing = !paused;
         if !self.open.has_state() {

@@ -8,6 +8,7 @@ use super::{
     drawing::{Device, Tasks, Ticket},
     open_project::OpenProject,
     read_back::{Inspect, Inspected, TakeReplay},
+    recent::KeptBreakpoint,
 };
 use eddy_background::{Background, Status, Wake};
 use eddy_debugger::{
@@ -49,6 +50,8 @@ pub(super) struct PixelTrace {
     pixel: Option<TracedPixel>,
     input: Ticket<Result<Inspected, EngineError>>,
     pub divergence: Divergence,
+    /// The debugger's breakpoints, which are kept until the project is opened again.
+    pub breakpoints: Vec<KeptBreakpoint>,
 }
 
 impl PixelTrace {
@@ -58,7 +61,8 @@ impl PixelTrace {
             Traced::new(project, &pass, frame, (inputs, &picture), at).map(Arc::new).map_err(|e| e.to_string())
         };
         let walk = Background::lazy("trace", "the CPU interpreter", wake.clone(), work);
-        Self { walk, pixel: None, input: Ticket::default(), divergence: Divergence::new(wake) }
+        let divergence = Divergence::new(wake);
+        Self { walk, pixel: None, input: Ticket::default(), divergence, breakpoints: Vec::new() }
     }
 
     /// Cancels the work, and returns its threads.

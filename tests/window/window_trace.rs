@@ -215,6 +215,16 @@ fn a_breakpoint_moves_with_its_line_and_an_edit_is_traced_again() {
     window.keys(&["F5"]);
     traced(&mut window, "the last line", |e| e["line"] == 17);
     display.shot("trace-edited.png");
+    // It is kept with the project.
+    window.keys(&["ctrl+s", "ctrl+q"]);
+    assert_eq!(window.wait_exit(), Some(0));
+    let mut window = Window::open_project(&display, home.path(), &folder);
+    window.resize(1300, 900);
+    window.wait_until("the larger picture", "layout", |e| e["canvas"][0].as_u64() > Some(500));
+    window.keys(&["ctrl+t"]);
+    let middle = window.picture_point(0.5, 0.5);
+    window.click(middle);
+    traced(&mut window, "the breakpoint of the last session", |e| e["breakpoints"][0]["line"] == 17);
 }
 
 #[test]

@@ -77,7 +77,7 @@ const KEYWORDS: [&str; 8] = ["if", "for", "while", "switch", "return", "else", "
 impl Lines {
     /// Adds a line with its line break.
     pub(super) fn add(&mut self, line: &[Token<'_>]) {
-        let line = line.strip_suffix_break();
+        let (all, line) = (line, line.strip_suffix_break());
         let Some(first) = line.first() else {
             self.blank_lines += 1;
             return;
@@ -90,13 +90,16 @@ impl Lines {
             && directive.kind == Kind::Directive
         {
             self.condition(directive.text);
-            self.out.push_str(directive.text.trim_end());
+            self.out.push_str(without_end(directive.text));
         } else {
             let indent = self.indent(first, line);
             self.out.extend(std::iter::repeat_n(' ', indent));
             self.tokens(line, indent);
         }
-        self.out.push('\n');
+        // A `\` at the end of the text has joined it with its last line break.
+        if all.len() > line.len() || !self.out.ends_with('\n') {
+            self.out.push('\n');
+        }
     }
 
     pub(super) fn finish(self) -> String {
@@ -166,7 +169,7 @@ impl Lines {
                 };
                 self.out.extend(std::iter::repeat_n(' ', blanks));
             }
-            self.out.push_str(token.text.trim_end());
+            self.out.push_str(without_end(token.text));
             if matches!(token.kind, Kind::Word | Kind::Sign) {
                 self.state.follow(token, role, (written, indent));
             } else if token.kind == Kind::Joined {
@@ -297,6 +300,12 @@ impl State {
         }
         self.last = Last { text: token.text.to_owned(), role };
     }
+}
+
+/// Returns a token without the blanks at its end. Those after a `\` decide whether it joins its line with the next.
+fn without_end(text: &str) -> &str {
+    let trimmed = text.trim_end();
+    if trimmed.ends_with('\\') { text } else { trimmed }
 }
 
 /// Returns a line without its line break.

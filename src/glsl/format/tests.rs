@@ -66,7 +66,10 @@ fn comments_and_directives_are_kept() {
     check("\n\na;   \n\n\n\nb;\n\n", "a;\n\nb;\n");
     check("a;\r\n\tb;\r\n", "a;\r\nb;\r\n");
     check("", "");
-    // A `\` joins lines.
+    // A `\` joins lines, also with an empty one, but not before a blank.
+    check("#define A x\\\n\n#define B\n", "#define A x\\\n\n#define B\n");
+    check("// x \\\n\n a;\n", "// x \\\n\na;\n");
+    check("// x \\ \na;\n", "// x \\ \na;\n");
     check("float lo\\\nng=1;\n", "float lo\\\nng=1;\n");
 }
 

@@ -213,6 +213,9 @@ impl Shell {
         }
         out.commands.extend(self.apply_settings(ui.ctx()));
         out.commands.extend(self.browser.take());
+        if let Some(breakpoints) = self.project_ui.debugger.take_changed() {
+            out.ask(ToolCommand::KeepBreakpoints(breakpoints));
+        }
         out.shell_commands.append(&mut self.shell_commands);
         let asking = session.question().is_some();
         if asking && self.overlays.palette.is_open() {

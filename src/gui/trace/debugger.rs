@@ -9,7 +9,7 @@ use crate::{
     diag::follow_line,
     gui::{actions::TraceAction, editor::Debug},
     project::Tab,
-    session::Session,
+    session::{KeptBreakpoint, Session},
 };
 use std::{collections::HashMap, sync::Arc};
 
@@ -21,6 +21,8 @@ pub(crate) struct Debugger {
     pub(super) at: usize,
     before: Option<usize>,
     pub(super) breakpoints: Vec<Breakpoint>,
+    /// The breakpoints as the session keeps them; `None` until they are taken over from it.
+    kept: Option<Vec<KeptBreakpoint>>,
     /// The texts to which the breakpoints' lines refer.
     texts: HashMap<Tab, String>,
     pub(super) watches: Vec<String>,
@@ -41,6 +43,9 @@ pub(crate) struct Debugger {
 impl Debugger {
     /// Takes over the session's newest trace.
     pub(crate) fn prepare(&mut self, session: &Session) {
+        if self.kept.is_none() {
+            self.restore(session);
+        }
         self.follow_texts(session);
         let traced = session.trace().traced;
         let known = self.examiner.as_ref().map(|examiner| &examiner.traced);
@@ -63,6 +68,34 @@ impl Debugger {
         if !stays || self.at >= traced.history.moments.len() {
             (self.at, self.before) = (first, None);
         }
+    }
+
+    /// Takes over the breakpoints with which the project was closed.
+    fn restore(&mut self, session: &Session) {
+        let kept = session.kept_breakpoints().to_vec();
+        for KeptBreakpoint { tab, line, condition, disabled } in &kept {
+            let Some(tab) = session.tabs().into_iter().find(|known| known.title() == *tab) else { continue };
+            let Some(line) = line.checked_sub(1).filter(|line| *line < session.text(&tab).lines().count()) else {
+                continue;
+            };
+            self.texts.entry(tab.clone()).or_insert_with(|| session.text(&tab).to_owned());
+            self.breakpoints.push(Breakpoint { tab, line, condition: condition.clone(), is_on: !disabled });
+        }
+        self.kept = Some(kept);
+    }
+
+    /// Returns the breakpoints if they have changed since the last call.
+    pub(crate) fn take_changed(&mut self) -> Option<Vec<KeptBreakpoint>> {
+        let keep = |b: &Breakpoint| KeptBreakpoint {
+            tab: b.tab.title(),
+            line: b.line + 1,
+            condition: b.condition.clone(),
+            disabled: !b.is_on,
+        };
+        let now: Vec<_> = self.breakpoints.iter().map(keep).collect();
+        let kept = self.kept.as_mut().filter(|kept| **kept != now)?;
+        kept.clone_from(&now);
+        Some(now)
     }
 
     /// Computes what is shown, unless it is cached.

@@ -10,6 +10,7 @@ use super::{
     films::FilmOrder,
     playback::TimeRange,
     probe::{ProbeLook, ProbePlace},
+    recent::KeptBreakpoint,
     tune::TuneOptions,
     view::Level,
 };
@@ -316,6 +317,9 @@ pub enum ToolCommand {
     /// Traces the pixel of the shown pass at a place of its picture, from 0 to 1 across and up, and pauses; `None` ends
     /// the trace. See [`Session::trace`](super::Session::trace).
     Trace(Option<[f32; 2]>),
+    /// Sets the debugger's breakpoints, which are kept until the project is opened again. See
+    /// [`Session::kept_breakpoints`](super::Session::kept_breakpoints).
+    KeepBreakpoints(Vec<KeptBreakpoint>),
     /// Looks in the background for the first assignment of the traced pixel that differs on the device. See
     /// [`Session::parting`](super::Session::parting).
     FindDivergence,

@@ -1,7 +1,7 @@
 //! The results of tracing, comparing, measuring and other tools, for front ends.
 
 use crate::{
-    AuditMap, CameraState, CountsView, Session, TraceView, measures::Measure, pass_history::PassStep,
+    AuditMap, CameraState, CountsView, KeptBreakpoint, Session, TraceView, measures::Measure, pass_history::PassStep,
     tune::TuneOutcome, view::TabFix,
 };
 use eddy_background::{Count, Status};
@@ -16,6 +16,12 @@ impl Session {
     /// The trace of the chosen pixel ([`ToolCommand::Trace`](super::ToolCommand::Trace)).
     pub fn trace(&self) -> TraceView<'_> {
         self.open.trace()
+    }
+
+    /// The breakpoints with which the project was closed, or those of
+    /// [`ToolCommand::KeepBreakpoints`](super::ToolCommand::KeepBreakpoints).
+    pub fn kept_breakpoints(&self) -> &[KeptBreakpoint] {
+        &self.open.trace.breakpoints
     }
 
     /// The search for the first difference from the device in the traced pixel
