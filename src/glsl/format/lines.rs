@@ -5,6 +5,9 @@ use super::{
     token::{Kind, Token, would_merge},
 };
 
+/// The depth of blocks, brackets, control statements or `#if` lines up to which a text is formatted.
+const MAX_DEPTH: usize = 64;
+
 /// The state between two lines.
 #[derive(Clone, Debug, Default)]
 struct State {
@@ -100,6 +103,12 @@ impl Lines {
         if all.len() > line.len() || !self.out.ends_with('\n') {
             self.out.push('\n');
         }
+    }
+
+    /// Returns whether the text is nested deeper than any shader: its indentation would be larger than the text.
+    pub(super) fn is_too_deep(&self) -> bool {
+        let State { blocks, brackets, headers, .. } = &self.state;
+        blocks.len().max(brackets.len()).max(*headers).max(self.conditions.len()) > MAX_DEPTH
     }
 
     pub(super) fn finish(self) -> String {

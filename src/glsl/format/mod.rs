@@ -14,7 +14,8 @@ use token::{Kind, Token, tokens};
 /// The step of indentation.
 const INDENT: usize = 4;
 
-/// Returns the text formatted. Formatting the result again does not change it.
+/// Returns the text formatted. Formatting the result again does not change it. A text that is nested deeper than 64 levels
+/// is returned as it is.
 ///
 /// ```
 /// let text = "void mainImage(out vec4 o,in vec2 p){\no=vec4( p/iResolution.xy,0,1 ) ;}\n";
@@ -32,7 +33,12 @@ pub fn format(text: &str) -> String {
         return text.to_owned();
     }
     let mut lines = Lines::default();
-    before.split_inclusive(|token| token.kind == Kind::Break).for_each(|line| lines.add(line));
+    for line in before.split_inclusive(|token| token.kind == Kind::Break) {
+        lines.add(line);
+        if lines.is_too_deep() {
+            return text.to_owned();
+        }
+    }
     let out = lines.finish();
     // Whatever happens, the program stays the same.
     if !meanings(&before).eq(meanings(&tokens(&out))) {

@@ -73,6 +73,15 @@ fn comments_and_directives_are_kept() {
     check("float lo\\\nng=1;\n", "float lo\\\nng=1;\n");
 }
 
+/// The result is not many times larger than the text, and takes no longer than reading it a few times.
+#[test]
+fn hostile_texts_are_formatted_in_bounded_time_and_size() {
+    for part in ["{\n", "(\n", "do\n", "#if 1\n{\n", "#a /*\n*//*\n*/", "/*\n*/", "a\\\n", "?\n", "#else\n"] {
+        let text = part.repeat(20_000);
+        assert!(format(&text).len() <= 8 * text.len(), "{part}");
+    }
+}
+
 /// A formatter is used on texts that do not compile yet.
 #[test]
 fn errors_are_kept() {

@@ -113,9 +113,9 @@ fn logical_line(code: &str) -> usize {
 
 /// Returns the length of a directive: its logical line, and what its comments contain.
 fn directive(code: &str) -> usize {
-    let mut end = logical_line(code);
+    let (mut end, mut at) = (logical_line(code), 0);
     loop {
-        let (line, mut at) = (&code[..end], 0);
+        let line = &code[..end];
         let open = loop {
             let Some(start) = line[at..].find("/*").map(|start| at + start) else { return end };
             if line[at..start].contains("//") {
@@ -127,6 +127,7 @@ fn directive(code: &str) -> usize {
             }
         };
         let Some(close) = code[open + 2..].find("*/").map(|close| open + close + 4) else { return code.len() };
+        at = close;
         end = close + logical_line(&code[close..]);
     }
 }
